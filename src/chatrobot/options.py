@@ -147,7 +147,7 @@ OPTIONS = (
     Option("--web", "at a terminal: show the conversation in a browser, too", ("", "replay"), COMMON, False,
         helps={"replay": "show it in a browser"}),
     Option("--record", "record what happens, by default to a new file of the recordings folder; the console and the"
-        " web console do so unasked", (*DRIVE, "web", "lesson"), COMMON, None, "[FILE.mcap]", offers="files"),
+        " web console do so unasked", (*FACES, "lesson"), COMMON, None, "[FILE.mcap]", offers="files"),
     Option("--no-record", "record nothing", (*DRIVE, "web", "lesson"), COMMON, False),
     Option("--config-dir", "where places, programs, recordings and robot profiles live",
         (*PLAN, "lesson", "calibrate", "sim", "doctor", "robots", "model", "usage", "record", "replay", *_KEPT),

@@ -14,6 +14,7 @@ from typing import Any
 import anyio
 import pytest
 
+from chatrobot.recording.reader import read
 from tests.mcp_server.mcp_rig import (
     PATIENCE_S,
     Wire,
@@ -28,9 +29,11 @@ from tests.mcp_server.mcp_rig import (
 pytestmark = pytest.mark.realtime
 
 
-def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
+def test_an_agent_rehearses_drives_looks_and_cancels_and_all_is_recorded(tmp_path: Path) -> None:
+    path = tmp_path / "agent.mcap"
+
     async def task() -> None:
-        async with over_stdio(tmp_path) as agent:
+        async with over_stdio(tmp_path, "--record", str(path)) as agent:
             rehearsed = await agent.data("rehearse", plan="drive 0.4 m\nturn left 90 deg")
             assert rehearsed["outcome"] == "completed"
             assert rehearsed["rehearsed"]["length_m"] == pytest.approx(0.4, abs=0.01)
@@ -59,6 +62,12 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
             assert again["outcome"] == "completed", "the next call works as ever"
 
     anyio.run(task)
+    recording = read(path)
+    plan = "drive 0.4 m\nturn left 90 deg"  # rehearsed, then driven
+    assert [text for _, text in recording.words] == [plan, plan, "前进三米", "back 20 cm"]
+    ended = [event["outcome"] for _, event in recording.events if event["event"] == "result"]
+    assert ended == ["completed", "completed", "stopped", "completed"]
+    assert max(odometry.x_m for _, odometry in recording.odometry) == pytest.approx(0.4, abs=0.03)
 
 
 def test_an_emergency_stop_refuses_all_motion_and_no_agent_releases_it(tmp_path: Path) -> None:

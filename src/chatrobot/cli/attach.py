@@ -17,7 +17,7 @@ CONNECT_S = 2.0
 END_S = 2.0
 _NOTHING_CHOSEN = {
     "on": "auto", "world": "", "sim": "", "model": "", "http": False, "open_loop": False, "yes": False,
-    "approve": False, "max_distance": None, "max_time": None,
+    "approve": False, "max_distance": None, "max_time": None, "record": None,
 }  # fmt: skip
 """With anything else a person has chosen a robot of their own, or how it is to be driven."""
 

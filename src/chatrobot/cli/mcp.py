@@ -17,7 +17,8 @@ from chatrobot.core.process import wake_promptly
 if TYPE_CHECKING:
     from mcp.server.mcpserver import MCPServer
 
-    from chatrobot.compose import Connection, Setup
+    from chatrobot.cli.recorder import Connect
+    from chatrobot.compose import Connection, OnEvent, Setup
     from chatrobot.core.events import Event
     from chatrobot.mcp_server.robot import AgentRobot
 
@@ -44,13 +45,15 @@ def run(args: argparse.Namespace) -> int:
 def _run_own(args: argparse.Namespace) -> int:
     """Serve a robot of our own."""
     from chatrobot.cli.choices import setup_from
+    from chatrobot.cli.recorder import recorded
     from chatrobot.cli.signals import SignalWatch
     from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 
+    meet = recorded(args, tokens=lambda: (args.token or "",))
     setup = replace(setup_from(args, named_model=True, programs=True), source=SOURCE)
     if setup.model is None:  # the client's own model does what the offline language cannot: hint at no other
         setup = replace(setup, options=replace(setup.options, interpreter="offline"))
-    robot = AgentRobot(_connector(setup))
+    robot = AgentRobot(_connector(setup, meet))
     with SignalWatch(robot.stop) as watch:
         try:
             asyncio.run(_serve(args, setup, robot, lambda: watch.is_leaving))
@@ -73,16 +76,25 @@ def _check(args: argparse.Namespace) -> None:
                 raise UsageError("only HTTP has an address and a token", where=flag, allowed="--http besides")
 
 
-def _connector(setup: Setup) -> Callable[[Callable[[Event], None]], Connection]:
+def _connector(setup: Setup, meet: Connect) -> Callable[[OnEvent], Connection]:
     """Return what meets the robot; the processes that were started ahead are used once."""
-    from chatrobot.compose import connect
-
     ahead = [setup]
 
-    def meet(on_event: Callable[[Event], None]) -> Connection:
-        return connect(ahead.pop() if ahead else replace(setup, processes=None), on_event)
+    def connect(on_event: OnEvent) -> Connection:
+        chosen = ahead.pop() if ahead else replace(setup, processes=None)
+        return meet(chosen, lambda event: _hear(on_event, event))
 
-    return meet
+    return connect
+
+
+def _hear(on_event: OnEvent, event: Event) -> None:
+    """Have the agent told, and who reads what this server writes of a recording: standard output is the protocol's."""
+    from chatrobot.core.events import Notice
+    from chatrobot.language.phrases import render_reason
+
+    if isinstance(event, Notice) and event.reason.code.startswith("recording"):
+        print(render_reason(event.reason, "en"), file=sys.stderr, flush=True)
+    on_event(event)
 
 
 async def _serve(
@@ -113,12 +125,13 @@ async def _serve_http(
         raise UsageError(
             problem, where="--token", allowed="a longer one, or leave it out: one is made and printed"
         )
-    host, token = args.host or "127.0.0.1", args.token or new_token()
+    host, made = args.host or "127.0.0.1", new_token() if args.token is None else ""
+    token = args.token = args.token or made  # a recording, which asks for it, must not have it
     with listen(host, args.port) as listener:
         port = listener.getsockname()[1]
         shown = f"[{host}]" if ":" in host else host
-        made = "" if args.token else f"  token: {token}"
-        print(f"MCP server: http://{shown}:{port}{PATH}{made}", flush=True)
+        told = f"  token: {made}" if made else ""
+        print(f"MCP server: http://{shown}:{port}{PATH}{told}", flush=True)
         await serve_http(guarded_app(server, token, host, port), listener, is_leaving)
 
 
