@@ -12,11 +12,12 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 
-from chatrobot.core.events import Telemetry
+from chatrobot.core.events import Scan, Telemetry
 from chatrobot.recording.about import about_of, world_of
 from chatrobot.recording.playback import shown
 from chatrobot.recording.reader import Recording, read
@@ -94,10 +95,12 @@ def test_a_replay_tells_the_same_poses_and_words(recorded: tuple[Path, list[dict
     assert done.code == 0
     assert [event["text"] for event in done.named("heard")] == [WORDS, "what time is it on mars"]
     assert [event["outcome"] for event in done.named("result")] == ["completed", "unclear"]
-    odometry = read(path).odometry
+    recording = read(path)
     for event in done.named("telemetry"):
-        at = min(odometry, key=lambda item: abs(item[0] - event["recorded_s"]))[1]
-        assert math.dist((event["pose"]["x_m"], event["pose"]["y_m"]), (at.x_m, at.y_m)) < 0.01
+        for way in (recording.odometry, recording.truth):
+            at = min(way, key=lambda item: abs(item[0] - event["recorded_s"]))[1]
+            assert math.dist((event["pose"]["x_m"], event["pose"]["y_m"]), (at.x_m, at.y_m)) < 0.01
+            assert abs(math.remainder(event["pose"]["yaw_rad"] - at.yaw_rad, math.tau)) < 0.02
     text = chatrobot("replay", str(path), "--speed", "1000").out
     assert f"> {WORDS}" in text
     assert "Done: drove 1.00 m" in text
@@ -111,6 +114,20 @@ def test_a_recording_of_a_foreign_robot_is_shown_by_its_odometry(tmp_path: Path)
     assert len(poses) == pytest.approx(20, abs=1)
     assert all(x_m == pytest.approx(0.3 * t_s) for t_s, x_m in poses)
     assert any(getattr(item, "text", "") == "go" for _, item in items)
+
+
+def test_walls_are_shown_where_they_are_though_the_wheels_slip(tmp_path: Path) -> None:
+    path = tmp_path / "slips.mcap"
+    done = Command(tmp_path)(
+        "do", "turn left", "--fast", "--sim", "slip=0.1", "--world", "home",
+        "--record", str(path), "--config-dir", str(tmp_path),
+    )  # fmt: skip
+    assert done.code == 0
+    recording, lidar = read(path), load_profile("wheeltec_mini_mec").lidar
+    assert recording.odometry[-1][1].yaw_rad > recording.truth[-1][1].yaw_rad + 0.1
+    *_, last = (item for _, item in shown(recording, lidar) if isinstance(item, Scan))
+    assert len(last.points_m) > 100
+    assert abs(world_of(recording.meta).clearance_m(np.array(last.points_m))).max() < 0.05
 
 
 @pytest.mark.parametrize("name", world_names())

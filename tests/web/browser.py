@@ -75,11 +75,13 @@ def open_page(
     dark: bool = False,
     locale: str = "en-GB",
     sent: list[str] | None = None,
+    script: str = "",
 ) -> Page:
     """Open a page as a person with that screen and language does, and wait until it is in.
 
     Args:
         sent: what the page says to the server is added there.
+        script: runs before the page's own.
     """
     context = browser.new_context(
         viewport={"width": size[0], "height": size[1]},
@@ -89,6 +91,7 @@ def open_page(
     )
     context.set_default_timeout(PATIENCE_MS)
     page = context.new_page()
+    page.add_init_script(script)
     if sent is not None:
         page.on("websocket", lambda line: line.on("framesent", lambda frame: sent.append(str(frame))))
     page.goto(address)

@@ -46,7 +46,8 @@ def shown(recording: Recording, lidar: Lidar | None = None) -> list[tuple[float,
     if Telemetry not in names:
         found += _telemetry(recording)
     if lidar is not None:
-        found += _scans(recording, lidar)
+        told = [(t_s, item.pose) for t_s, item in found if isinstance(item, Telemetry)]
+        found += _scans(recording, lidar, told)
     return sorted(found, key=lambda item: item[0])
 
 
@@ -89,14 +90,26 @@ def _telemetry(recording: Recording) -> Iterator[tuple[float, Shown]]:
             yield t_s, Telemetry(0, pose, twist, path_m, moving=not twist.is_zero)
 
 
-def _scans(recording: Recording, lidar: Lidar) -> Iterator[tuple[float, Shown]]:
-    times = [t_s for t_s, _ in recording.odometry]
+def _scans(
+    recording: Recording, lidar: Lidar, told: list[tuple[float, Pose]]
+) -> Iterator[tuple[float, Shown]]:
+    """Give what the lidar saw, from where the robot took itself to be: last told, and driven on since by the wheels."""
+    wheels = [
+        (t_s, Pose(odometry.x_m, odometry.y_m, odometry.yaw_rad)) for t_s, odometry in recording.odometry
+    ]
     due_s = -math.inf
     for t_s, scan in recording.scans:
-        at = bisect_right(times, t_s) - 1
-        if t_s < due_s or at < 0:
+        here, since = _last(wheels, t_s), _last(told, t_s)
+        if t_s < due_s or here is None:
             continue
         due_s = t_s + SCAN_S
-        odometry = recording.odometry[at][1]
-        pose = Pose(odometry.x_m, odometry.y_m, odometry.yaw_rad)
+        pose = here[1]
+        if since is not None and (before := _last(wheels, since[0])) is not None:
+            pose = since[1].compose(pose.relative_to(before[1]))
         yield t_s, Scan(0, pose, tuple(scan_points_m(lidar, scan, pose)))
+
+
+def _last(timed: list[tuple[float, Pose]], t_s: float) -> tuple[float, Pose] | None:
+    """Return the last of them that had come by then."""
+    at = bisect_right(timed, t_s, key=lambda one: one[0]) - 1
+    return timed[at] if at >= 0 else None

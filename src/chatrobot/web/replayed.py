@@ -56,7 +56,7 @@ class ReplayRoom(Room):
 class _Replayed:
     """Connection and session at once, as far as a room and those who watch ask."""
 
-    authoring = None
+    authoring = camera = None
     is_moving = is_plan_paused = False
 
     def __init__(self, profile: RobotProfile, world: World, halt: Any) -> None:
