@@ -15,9 +15,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mcap.reader import make_reader
+from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
+from chatrobot.cli.recorder import read_recording
+from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Scan, Telemetry
+from chatrobot.core.wiring import Wiring
 from chatrobot.recording.about import about_of, world_of
 from chatrobot.recording.playback import shown
 from chatrobot.recording.reader import Recording, read
@@ -28,7 +32,9 @@ from chatrobot.recording.topics import CMD_VEL, ODOM
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world, world_names
 from chatrobot.sim.world import World
+from chatrobot.wire.dds.definitions import RosDefinitions
 from chatrobot.wire.messages import Odometry, TwistMessage
+from chatrobot.wire.ros_messages import ros_form
 from tests.cli.running import Command
 
 WORDS = "forward 1 m then turn left"
@@ -128,6 +134,27 @@ def test_walls_are_shown_where_they_are_though_the_wheels_slip(tmp_path: Path) -
     *_, last = (item for _, item in shown(recording, lidar) if isinstance(item, Scan))
     assert len(last.points_m) > 100
     assert abs(world_of(recording.meta).clearance_m(np.array(last.points_m))).max() < 0.05
+
+
+def test_a_bag_of_others_is_read_with_stamped_velocities_or_says_what_it_holds(tmp_path: Path) -> None:
+    bag = tmp_path / "bag"  # a folder, as ros2 bag record leaves it
+    bag.mkdir()
+    definitions, twist = RosDefinitions(), "geometry_msgs/msg/TwistStamped"
+    wiring = Wiring(cmd_vel_type="TwistStamped")
+    data = definitions.cdr(
+        twist, ros_form(wiring.cmd_vel_topic, TwistMessage, wiring).to_ros(TwistMessage(0.2, 0.0, 0.1))
+    )
+    for name, topic in (("bag/bag_0.mcap", "/cmd_vel"), ("else.mcap", "/other")):
+        with (tmp_path / name).open("wb") as file:
+            writer = Writer(file)
+            writer.start("ros2", "libmcap 1.3.0")
+            schema = writer.register_schema(twist, "ros2msg", definitions.text_of(twist).encode())
+            writer.add_message(writer.register_channel(topic, "cdr", schema), 10**9, data, 10**9)
+            writer.finish()
+    recording, was_mended = read_recording(str(bag))
+    assert (recording.commands, was_mended) == ([(0.0, TwistMessage(0.2, 0.0, 0.1))], False)
+    with pytest.raises(UsageError, match=r"only /other \(geometry_msgs/msg/TwistStamped\)"):
+        read_recording(str(tmp_path / "else.mcap"))
 
 
 @pytest.mark.parametrize("name", world_names())

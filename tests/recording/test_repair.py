@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
+from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
 from chatrobot.core.errors import InputError
@@ -87,6 +88,10 @@ def test_a_file_cut_anywhere_is_mended_or_refused(whole: Path) -> None:
             assert path.read_bytes() == data[: int(len(data) * share)]
             continue
         assert is_whole(path)
+        if share < 0.01:
+            with pytest.raises(InputError, match="no message"):
+                read(path)
+            continue
         assert len(read(path).odometry) <= before
     assert not list(whole.parent.glob(".*"))
 
@@ -98,6 +103,20 @@ def test_bytes_that_went_bad_end_what_can_be_read(whole: Path) -> None:
     assert repair(whole) is not None
     read(whole)
     assert repair(whole) is None
+
+
+def test_what_another_program_may_still_write_is_not_touched(tmp_path: Path) -> None:
+    path = tmp_path / "theirs.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file, chunk_size=1)
+        writer.start("ros2", "libmcap 1.3.0")
+        channel = writer.register_channel("/odom", "cdr", 0)
+        writer.add_message(channel, 1, b"x", 1)
+    before = path.read_bytes()
+    with pytest.raises(InputError, match="mcap recover"):
+        repair(path)
+    tidy(tmp_path)
+    assert path.read_bytes() == before
 
 
 def test_what_is_being_written_is_left_alone(tmp_path: Path) -> None:

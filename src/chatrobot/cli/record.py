@@ -28,6 +28,11 @@ from chatrobot.sim.robot import TRUTH_TOPIC
 from chatrobot.wire.connect import connect_wire, wire_address
 
 NAME = "chatrobot_record"
+SILENT_S = 3.0
+_SILENCE = (
+    "nothing has come for {:.0f} s: is the robot on, is this its address (--on), are these its topics (--robot)?"
+    " Recording goes on."
+)
 _TEXTS = (
     (topics.USER_INPUT, USER_INPUT),
     (topics.CHATGPT_NODE, CHATGPT_NODE),
@@ -60,8 +65,7 @@ def run(args: argparse.Namespace) -> int:
     except OSError:
         wire.close()
         raise
-    is_local = address.startswith("local:") or "/" in address.partition(":")[0]
-    recorder.listen(wire, profile.wiring, TRUTH_TOPIC if is_local else "")
+    recorder.listen(wire, profile.wiring, TRUTH_TOPIC)
     for topic, name in _TEXTS:
         recorder.subscribe(wire, topic, name)
     language = language_of_environment()
@@ -78,9 +82,15 @@ def _free_path(args: argparse.Namespace, robot: str) -> Path:
 def _watch(recorder: Recorder, title: str) -> int:
     print(f"Recording {title} to {recorder.path}; Ctrl-C ends it.", flush=True)
     ended = threading.Event()
-    began_s = time.monotonic()
+    began_s = heard_s = time.monotonic()
+    heard, is_told = 0, False
     with SignalWatch(lambda _: ended.set()):
         while not (ended.wait(1.0) or recorder.is_over):
+            if recorder.message_count != heard:
+                heard, heard_s, is_told = recorder.message_count, time.monotonic(), False
+            elif time.monotonic() - heard_s > SILENT_S and not is_told:
+                is_told = True
+                print(f"{_line_end()}{_SILENCE.format(SILENT_S)}", file=sys.stderr, flush=True)
             if sys.stdout.isatty():
                 print(f"\r\x1b[K  {_progress(recorder, began_s)}", end="", flush=True)
     recorder.close()

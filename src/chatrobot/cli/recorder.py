@@ -16,15 +16,18 @@ from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
 from chatrobot.language.phrases import render_reason
-from chatrobot.recording.shelf import MOST_BYTES, check_new, make_folder, make_room, new_path, tidy
+from chatrobot.recording.shelf import MOST_BYTES, SUFFIX, check_new, make_folder, make_room, new_path, tidy
 from chatrobot.sim.robot import TRUTH_TOPIC
 
 if TYPE_CHECKING:
+    from chatrobot.recording.reader import Recording
     from chatrobot.recording.recorder import Recorder
 
 Connect = Callable[[Setup, OnEvent], Connection]
 EXTRA = "pip install 'chatrobot[record]'"
 _LIBRARIES = ("mcap", "rosbags")
+MOST_NAMED = 8
+"""So many recordings of a folder are named, the last ones."""
 
 
 def data_folder(config_dir: str | None) -> Path:
@@ -45,6 +48,43 @@ def require_extra() -> None:
     missing = [name for name in _LIBRARIES if find_spec(name) is None]
     if missing:
         raise UsageError(f"recordings are not installed: {missing[0]} is missing", allowed=EXTRA)
+
+
+def read_recording(name: str) -> tuple[Recording, bool]:
+    """Read the recording in that file, or in that folder of `ros2 bag record`; and whether it had to be mended.
+
+    Raises:
+        InputError: there is none, it cannot be read, nothing in it can be shown, or it is not at its end yet.
+    """
+    require_extra()
+    from chatrobot.recording.reader import read
+    from chatrobot.recording.repair import is_whole, repair
+
+    path = Path(name).expanduser()
+    try:
+        if path.is_dir():
+            path = _only_file(path)
+        was_mended = repair(path) is not None
+        if not is_whole(path):
+            raise UsageError("is being recorded just now", where=str(path), allowed="it, once that has ended")
+        return read(path), was_mended
+    except OSError as error:
+        raise UsageError(error.strerror or str(error), where=str(path), allowed="an .mcap file") from error
+
+
+def _only_file(folder: Path) -> Path:
+    """Return the one recording in a folder: so `ros2 bag record` leaves it.
+
+    Raises:
+        UsageError: there are more, or none.
+    """
+    found = sorted(folder.glob(f"*{SUFFIX}"))
+    if len(found) != 1:
+        names = ", ".join(str(path) for path in found[-MOST_NAMED:])
+        raise UsageError(
+            f"a folder with {len(found)} recordings", where=str(folder), allowed=names or f"one {SUFFIX} file"
+        )
+    return found[0]
 
 
 def recorded(

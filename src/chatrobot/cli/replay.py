@@ -7,7 +7,6 @@ import contextlib
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.tables import way_map
@@ -16,14 +15,13 @@ from chatrobot.cli.entry import STOPPED, forget_stdout
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.human import HumanPrinter
 from chatrobot.cli.json_lines import Output, json_line
-from chatrobot.cli.recorder import require_extra
+from chatrobot.cli.recorder import read_recording
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import InputError, UsageError
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.recording.about import world_of
 from chatrobot.recording.playback import Heard, Shown, play, shown
-from chatrobot.recording.reader import Recording, read
-from chatrobot.recording.repair import repair
+from chatrobot.recording.reader import Recording
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.robots.profile import RobotProfile
 
@@ -34,17 +32,11 @@ def run(args: argparse.Namespace) -> int:
     """Return 0 at the end of the recording, 5 where somebody ended it before.
 
     Raises:
-        UsageError: it is no recording.
+        InputError: it is no recording.
     """
-    require_extra()
-    path = Path(args.file).expanduser()
-    try:
-        mended = repair(path)
-        recording = read(path)
-    except OSError as error:
-        raise UsageError(error.strerror or str(error), where=args.file) from error
-    if mended is not None:
-        print(f"{path} had been cut off: repaired, {mended} messages", file=sys.stderr)
+    recording, was_mended = read_recording(args.file)
+    if was_mended:
+        print(f"{recording.path} had been cut off, and was repaired", file=sys.stderr)
     if args.web:
         return _show_in_browser(args, recording)
     output = Output()

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from chatrobot.core.errors import UsageError
+from chatrobot.recording.repair import errors_of_broken_files
 from chatrobot.recording.topics import (
     CMD_VEL,
     EVENTS,
@@ -20,6 +21,7 @@ from chatrobot.recording.topics import (
     METADATA,
     ODOM,
     SCAN,
+    STAMPED_VELOCITY,
     TOPICS,
     USER_INPUT,
 )
@@ -28,6 +30,8 @@ from chatrobot.wire.messages import LaserScan, Message, Odometry, Text, TwistMes
 NS_PER_S = 1e9
 Kind = TypeVar("Kind", bound=Message)
 Timed = list[tuple[float, Kind]]
+MOST_NAMED = 8
+"""So many topics of a file without ours are named."""
 ALLOWED = "an .mcap file that chatrobot, or ros2 bag record --storage mcap, has written"
 
 
@@ -36,7 +40,7 @@ class Recording:
     """All of a recording, each message with its seconds since the first one.
 
     `meta` is the metadata record, empty where the file has none; `began_ns` is when the first message was received,
-    nanoseconds since 1970, 0 in a recording of nothing. `words` are what a person said.
+    nanoseconds since 1970. `words` are what a person said.
     """
 
     path: Path
@@ -55,44 +59,59 @@ def read(path: Path) -> Recording:
     """Read the recording in a file that is whole (`repair` sees to that).
 
     Raises:
-        UsageError: it is no recording.
+        UsageError: it is no recording, or another's in which nothing can be shown.
         OSError: it cannot be read.
     """
-    from mcap.exceptions import McapError
     from mcap.reader import make_reader
 
     recording = Recording(path)
     with path.open("rb") as file:
         try:
             reader = make_reader(file)
-            for about in reader.iter_metadata():
-                if about.name == METADATA:
-                    recording.meta = dict(about.metadata)
-            by_name = {topic.name: topic for topic in TOPICS}
-            _take_all(recording, reader.iter_messages(topics=list(by_name)))
-        except (McapError, ValueError, UnicodeDecodeError) as error:
+            ours = [about.metadata for about in reader.iter_metadata() if about.name == METADATA]
+            recording.meta = dict(ours[-1]) if ours else {}
+            is_empty = not _take_all(recording, reader.iter_messages(topics=[topic.name for topic in TOPICS]))
+            there = _content(reader.get_summary()) if is_empty else ""
+        except errors_of_broken_files() as error:
             raise UsageError("is not a recording, or is broken", where=str(path), allowed=ALLOWED) from error
+    if is_empty and not ours:
+        wanted = ", ".join(f"{topic.name} ({topic.form.type_name})" for topic in TOPICS[:3])
+        raise UsageError(f"holds nothing to show: {there}", where=str(path), allowed=f"one of {wanted} …")
     return recording
 
 
-def _take_all(recording: Recording, messages: Iterable[tuple[Any, Any, Any]]) -> None:
-    """Put every message where it belongs. What has another type than ours, or is broken, is left out."""
+def _content(summary: Any) -> str:
+    """Say which topics are in a file."""
+    channels = summary.channels.values() if summary is not None else ()
+    types = {id_: schema.name for id_, schema in summary.schemas.items()} if summary is not None else {}
+    told = sorted(f"{one.topic} ({types.get(one.schema_id, one.message_encoding)})" for one in channels)
+    if not told or not summary.statistics or not summary.statistics.message_count:
+        return "no message"
+    return "only " + ", ".join(told[:MOST_NAMED]) + (" …" if len(told) > MOST_NAMED else "")
+
+
+def _take_all(recording: Recording, messages: Iterable[tuple[Any, Any, Any]]) -> int:
+    """Put every message where it belongs; how many did. What has another type than ours, or is broken, is left out."""
     from chatrobot.wire.dds.definitions import MALFORMED, RosDefinitions
 
     definitions = RosDefinitions()
-    forms = {topic.name: topic.form for topic in TOPICS}
+    forms = {(topic.name, topic.form.type_name): topic.form for topic in TOPICS}
+    forms[CMD_VEL.name, STAMPED_VELOCITY.type_name] = STAMPED_VELOCITY
+    count = 0
     for schema, channel, message in messages:
-        form = forms[channel.topic]
-        if schema is None or schema.name != form.type_name or channel.message_encoding != MESSAGE_ENCODING:
+        form = forms.get((channel.topic, schema.name)) if schema is not None else None
+        if form is None or channel.message_encoding != MESSAGE_ENCODING:
             continue
         try:
             found = form.from_ros(definitions.read(form.type_name, message.data))
         except (*MALFORMED, AttributeError):
             continue
-        recording.began_ns = recording.began_ns or message.log_time
+        recording.began_ns = message.log_time if count == 0 else recording.began_ns
+        count += 1
         t_s = (message.log_time - recording.began_ns) / NS_PER_S
         recording.duration_s = max(recording.duration_s, t_s)
         _take(recording, channel.topic, t_s, found)
+    return count
 
 
 def _take(recording: Recording, topic: str, t_s: float, found: Message | None) -> None:

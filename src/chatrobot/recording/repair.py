@@ -13,6 +13,8 @@ from typing import Any, BinaryIO
 from chatrobot.core.errors import InputError
 
 MAGIC = b"\x89MCAP0\r\n"
+LIBRARY = "chatrobot "
+"""How a file begins to say who wrote it, where we did; our version follows."""
 _FOOTER_BYTES = 9 + 20
 _LARGEST_RECORD_BYTES = 1 << 28
 """A length beyond it is no length: the file ends within it."""
@@ -57,7 +59,7 @@ def repair(path: Path) -> int | None:
     A file that is being written just now is left alone.
 
     Raises:
-        InputError: it is no recording, or nothing in it can be read.
+        InputError: it is no recording, nothing in it can be read, or another program began it.
         OSError: it cannot be read, or the disk is full; then it stays as it is.
     """
     with held(path) as is_ours:
@@ -84,6 +86,12 @@ def _copy(broken: BinaryIO, mended: BinaryIO, name: str) -> int:
     header = next(found, None)
     if not isinstance(header, records.Header):
         raise InputError("is no recording: it does not begin as one", where=name, allowed="an MCAP file")
+    if not header.library.startswith(LIBRARY):  # its writer may be at work: it holds no lock of ours
+        raise InputError(
+            "is not whole, and another program's: only that may write there",
+            where=name,
+            allowed=f"end that program; or mcap recover {name} -o NEW.mcap, or ros2 bag reindex, and then that file",
+        )
     writer, count = Writer(mended), 0
     writer.start(header.profile, header.library)
     schemas: dict[int, int] = {0: 0}
@@ -105,28 +113,24 @@ def _copy(broken: BinaryIO, mended: BinaryIO, name: str) -> int:
     return count
 
 
-def _records(file: BinaryIO) -> Iterator[Any]:
-    """Give the records of the data section, up to its end or the first that cannot be read."""
+def errors_of_broken_files() -> tuple[type[Exception], ...]:
+    """Return what the library raises where bytes of a file are no record, or not what was written."""
     from mcap.exceptions import McapError
-    from mcap.records import DataEnd
-    from mcap.stream_reader import StreamReader
     from zstandard import ZstdError
 
-    no_record = (
-        McapError,
-        ZstdError,
-        struct.error,
-        ValueError,
-        OverflowError,
-        MemoryError,
-        KeyError,
-        EOFError,
-    )
+    return (McapError, ZstdError, struct.error, ValueError, OverflowError, MemoryError, KeyError, EOFError)
+
+
+def _records(file: BinaryIO) -> Iterator[Any]:
+    """Give the records of the data section, up to its end or the first that cannot be read."""
+    from mcap.records import DataEnd
+    from mcap.stream_reader import StreamReader
+
     reader = iter(StreamReader(file, validate_crcs=True, record_size_limit=_LARGEST_RECORD_BYTES).records)
     while True:
         try:
             record = next(reader)
-        except no_record:
+        except errors_of_broken_files():
             return
         if isinstance(record, DataEnd):
             return

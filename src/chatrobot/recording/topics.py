@@ -34,6 +34,10 @@ _PLAIN: Any = Wiring()
 
 CMD_VEL = Topic("/cmd_vel", TwistMessage)
 """Every velocity that the robot was told, by whomever."""
+STAMPED_VELOCITY: RosForm = ros_form(
+    "cmd_vel", TwistMessage, Wiring(cmd_vel_topic="cmd_vel", cmd_vel_type="TwistStamped")
+)
+"""The other type that bags of others have there; we write the plain one."""
 ODOM = Topic("/odom", Odometry)
 SCAN = Topic("/scan", LaserScan)
 GROUND_TRUTH = Topic("/ground_truth", Odometry)

@@ -12,6 +12,7 @@ from typing import BinaryIO
 from mcap.writer import Writer
 
 from chatrobot import __version__
+from chatrobot.recording.repair import LIBRARY
 from chatrobot.recording.topics import (
     MESSAGE_ENCODING,
     METADATA,
@@ -41,7 +42,7 @@ class RecordingWriter:
         self._definitions = RosDefinitions()
         self._file = file
         self._writer = Writer(self._file)
-        self._writer.start(PROFILE, library=f"chatrobot {__version__}")
+        self._writer.start(PROFILE, library=f"{LIBRARY}{__version__}")
         self._writer.add_metadata(METADATA, {key: redact(value) for key, value in about.items()})
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from chatrobot.cli.recorder import read_recording
 from chatrobot.core.errors import UsageError
 
 if TYPE_CHECKING:
@@ -20,14 +21,13 @@ FORMATS = ("html", "svg", "png", "gif", "csv")
 """What a report can be; the first is made where none is asked for."""
 _COLUMNS = ("t_s", "topic", "x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "wz_radps")
 _DECIMALS = 6
-_HINT = "pip install 'chatrobot[record]'"
 
 
 def run(args: argparse.Namespace) -> int:
     """Write the report and say where it is. Always 0.
 
     Raises:
-        UsageError: the file is no recording, or what is to be written has another name than its kind.
+        InputError: the file is no recording, or what is to be written has another name than its kind.
         OSError: a file cannot be read or written.
     """
     path = Path(args.file).expanduser()
@@ -35,12 +35,11 @@ def run(args: argparse.Namespace) -> int:
         kind: _out(path, kind, getattr(args, kind)) for kind in FORMATS if getattr(args, kind) is not None
     }
     outs = outs or {FORMATS[0]: _out(path, FORMATS[0], "")}
-    was_repaired = _repaired(path)
     from chatrobot.cli.report.drive import Drive
     from chatrobot.cli.report.summary import words_in
-    from chatrobot.recording.reader import read
 
-    drive = Drive.of(read(path), args.language or None)
+    recording, was_repaired = read_recording(args.file)
+    drive = Drive.of(recording, args.language or None)
     say = words_in(drive.language)
     if was_repaired:
         print(f"chatrobot: {say('repaired')}", file=sys.stderr)
@@ -64,28 +63,6 @@ def _out(path: Path, kind: str, chosen: str) -> Path:
             allowed=f"a name that ends in .{kind}, or none behind the recording: chatrobot report FILE --{kind}",
         )
     return out
-
-
-def _repaired(path: Path) -> bool:
-    """Mend the recording where it was cut off; true where it was.
-
-    Raises:
-        UsageError: it is no recording, is being written just now, or the libraries are missing.
-    """
-    try:
-        import mcap  # noqa: F401
-    except ImportError as error:
-        raise UsageError("recordings need a library that is missing", allowed=_HINT) from error
-    from chatrobot.recording.repair import is_whole, repair
-
-    if not path.is_file():
-        raise UsageError("there is no such file", where=str(path), allowed="a recording, an .mcap file")
-    was_repaired = repair(path) is not None
-    if not is_whole(path):
-        raise UsageError(
-            "is being recorded just now", where=str(path), allowed="report it when that has ended"
-        )
-    return was_repaired
 
 
 def _writer(kind: str, drive: Drive, say: Say, was_repaired: bool) -> Callable[[Path], object]:
