@@ -237,9 +237,7 @@ def _sim(parser: argparse.ArgumentParser) -> None:
 
 
 def _node(parser: argparse.ArgumentParser) -> None:
-    nodes = (
-        "input: lines typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel"
-    )
+    nodes = "input: typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel"
     _add(parser, "which", choices=("input", "base", "control"), help=nodes)
     _ros_args(parser)
 
@@ -272,8 +270,7 @@ def _fake_model(parser: argparse.ArgumentParser) -> None:
     answers = "what it answers: docs/models.md has the form"
     _add(parser, "script", "files", metavar="SCRIPT.yaml", help=answers)
     _add(parser, "--port", type=port, default=8399, help="0: any that is free (default: 8399)")
-    where = "where to listen; beyond loopback a token is asked for"
-    _add(parser, "--host", default="127.0.0.1", help=where)
+    _add(parser, "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for")
 
 
 def _web(parser: argparse.ArgumentParser) -> None:
@@ -285,6 +282,8 @@ def _web(parser: argparse.ArgumentParser) -> None:
     _add(parser, "--token", default="", help=token)
     pupils = "a class: so many pupils, 2 to 30, each with a simulated robot of their own; prints the teacher's link"
     _add(parser, "--class", dest="pupils", type=int, default=0, metavar="N", help=pupils)
+    lesson = "a lesson, or a sheet of your own: the page, or each pupil's, shows its tasks and judges what was done"
+    _add(parser, "--lesson", "lessons", default="", metavar="FILE|NAME", help=lesson)
     _add(parser, "--no-open", action="store_true", help="do not open the page in a browser")
     _add(parser, "--tls-cert", "files", default="", metavar="FILE", help="a certificate in PEM: speak HTTPS")
     _add(parser, "--tls-key", "files", default="", metavar="FILE", help="its key in PEM")

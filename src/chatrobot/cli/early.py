@@ -91,7 +91,8 @@ def started_early(args: argparse.Namespace) -> Iterator[None]:
         from chatrobot.cli.attach import attachable
 
         args.host_line = attachable(args)
-    starts_its_own = getattr(args, "host_line", None) is not None or bool(getattr(args, "pupils", False))
+    of_its_own = ("host_line", "pupils", "lesson")
+    starts_its_own = any(getattr(args, name, None) for name in of_its_own)
     needs_robot = args.command in COMMANDS and not args.fast and not starts_its_own
     early = Early(args) if needs_robot else None
     args.early = early

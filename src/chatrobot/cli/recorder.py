@@ -22,6 +22,7 @@ from chatrobot.sim.robot import TRUTH_TOPIC
 if TYPE_CHECKING:
     from chatrobot.recording.reader import Recording
     from chatrobot.recording.recorder import Recorder
+    from chatrobot.web.class_recordings import ClassRecordings
 
 Connect = Callable[[Setup, OnEvent], Connection]
 EXTRA = "pip install 'chatrobot[record]'"
@@ -99,12 +100,8 @@ def recorded(
     Raises:
         UsageError: it cannot be recorded as chosen.
     """
-    if args.record is None and (args.no_record or not unasked or any(map(_is_missing, _LIBRARIES))):
+    if not _is_wanted(args, unasked=unasked):
         return connect
-    if args.record is not None and args.no_record:
-        raise UsageError("either of both", where="--record --no-record", allowed="leave one out")
-    if args.record is not None:
-        require_extra()
     chosen = check_new(Path(args.record)) if args.record else None
 
     def connect_recorded(setup: Setup, on_event: OnEvent) -> Connection:
@@ -123,6 +120,42 @@ def recorded(
     return connect_recorded
 
 
+def class_recordings(args: argparse.Namespace, tokens: Callable[[], Iterable[str]]) -> ClassRecordings | None:
+    """Return what records a class, a file for each pupil; None where nothing is recorded.
+
+    Raises:
+        UsageError: it cannot be recorded as chosen.
+    """
+    if args.record:
+        raise UsageError("each pupil has a file of their own", where="--record", allowed="--record alone")
+    if not _is_wanted(args, unasked=True):
+        return None
+    from chatrobot.web.class_recordings import CLASS_BYTES, ClassRecordings
+
+    try:
+        return ClassRecordings(_prepared_folder(args, CLASS_BYTES), tokens)
+    except OSError as error:
+        problem = error.strerror or str(error)
+        if args.record is not None:
+            raise UsageError(f"cannot record: {problem}", where="--record") from error
+        print(render_reason(Reason("recording_not_begun", {"problem": problem}), "en"), file=sys.stderr)
+        return None
+
+
+def _is_wanted(args: argparse.Namespace, *, unasked: bool) -> bool:
+    """Tell whether to record.
+
+    Raises:
+        UsageError: it cannot be recorded as chosen.
+    """
+    if args.record is None:
+        return unasked and not args.no_record and not any(map(_is_missing, _LIBRARIES))
+    if args.no_record:
+        raise UsageError("either of both", where="--record --no-record", allowed="leave one out")
+    require_extra()
+    return True
+
+
 def _is_missing(library: str) -> bool:
     return find_spec(library) is None
 
@@ -133,10 +166,14 @@ def _free_path(args: argparse.Namespace, setup: Setup) -> Path:
     Raises:
         OSError: there can be no such folder.
     """
+    return new_path(_prepared_folder(args, MOST_BYTES * 0.1), setup.profile.name)
+
+
+def _prepared_folder(args: argparse.Namespace, free_bytes: float) -> Path:
     folder = make_folder(data_folder(args.config_dir))
-    make_room(folder, MOST_BYTES * 0.9)
+    make_room(folder, MOST_BYTES - free_bytes)
     threading.Thread(target=tidy, args=(folder,), name="recordings", daemon=True).start()
-    return new_path(folder, setup.profile.name)
+    return folder
 
 
 class _Tap:

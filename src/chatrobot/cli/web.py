@@ -11,27 +11,33 @@ import sys
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.entry import STOPPED
-from chatrobot.cli.recorder import Connect, recorded
+from chatrobot.cli.recorder import Connect, class_recordings, recorded
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup
 from chatrobot.core.errors import LinkError, UsageError
-from chatrobot.core.events import Event, Notice
+from chatrobot.core.events import Event, Notice, TruePose
 from chatrobot.dialogue.pump import Pump
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
 
 if TYPE_CHECKING:
+    from chatrobot.lessons.sheet import Sheet
     from chatrobot.mcp_server.host import AgentHost
     from chatrobot.web.access import Access
+    from chatrobot.web.class_recordings import ClassRecordings
+    from chatrobot.web.classroom import Classroom
+    from chatrobot.web.lesson import RoomLesson
     from chatrobot.web.room import Room
     from chatrobot.web.server import WebServer
 
 PORT, MOST_TRIED = 8080, 20
+Sockets = tuple[socket.socket, socket.socket]
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]{4,128}")
 
 
@@ -43,39 +49,68 @@ def run(args: argparse.Namespace) -> int:
     """
     _check(args)
     try:
+        from chatrobot.lessons.run import LessonRun
+        from chatrobot.web.classroom import Classroom
+        from chatrobot.web.lesson import RoomLesson
         from chatrobot.web.pupils import check_class
         from chatrobot.web.room import Room
         from chatrobot.web.server import WebServer
     except ImportError as error:
         problem = f"the web console is not installed: {error.name} is missing"
         raise UsageError(problem, allowed="pip install 'chatrobot[web]'") from error
-    setup = setup_from(args, programs=True)
+    setup, sheet = _chosen(args)
+    access = _access(args)
+    recordings = None
     if args.pupils:
         check_class(setup, args.pupils)
-        if args.record is not None:
-            raise UsageError("a class is not recorded", where="--record", allowed="chatrobot web --record")
-    setup = replace(setup, options=replace(setup.options, while_moving="replace"))
-    access = _access(args)
-    page_socket, stop_socket = listen(args.host, args.port), listen(args.host, 0)
+        recordings = class_recordings(args, lambda: access.tokens)
     certificate = (args.tls_cert, args.tls_key) if args.tls_cert else None
-    with contextlib.closing(page_socket), contextlib.closing(stop_socket):
+    tell = partial(_tell, args, access, sheet, recordings)
+    sockets = (listen(args.host, args.port), listen(args.host, 0))
+    with contextlib.closing(sockets[0]), contextlib.closing(sockets[1]):
         if args.pupils:
-            return _serve_class(setup, args, access, (page_socket, stop_socket), certificate)
+            classroom = Classroom(args.pupils, access, args.token, sheet, recordings)
+            server = WebServer(access, classroom.rooms, certificate, classroom)
+            return _serve_class(setup, classroom, server, sockets, tell)
         room = Room()
         server = WebServer(access, {room.name: room}, certificate)
         meet = recorded(args, unasked=True, tokens=lambda: access.tokens)
-        return _serve(setup, room, server, (page_socket, stop_socket), lambda: _tell(args, access), meet)
+        lesson: RoomLesson | None = None
+        if sheet is not None:
+            lesson = RoomLesson(LessonRun(sheet, setup.profile.footprint), room, setup.profile.title)
+        return _serve(setup, room, server, sockets, tell, meet, lesson)
+
+
+def _chosen(args: argparse.Namespace) -> tuple[Setup, Sheet | None]:
+    """Return what was chosen, and the lesson, if one was.
+
+    Raises:
+        LessonError: there is no such lesson, or its sheet cannot be used.
+        UsageError: what was chosen does not exist, or does not fit the lesson.
+    """
+    sheet = None
+    if args.lesson:
+        from chatrobot.cli.lesson.command import check_robot, setup_of
+        from chatrobot.lessons.sheet import load_sheet
+
+        check_robot(args)
+        sheet = load_sheet(args.lesson)
+        setup = setup_of(args, sheet)
+    else:
+        setup = setup_from(args, programs=True)
+    return replace(setup, options=replace(setup.options, while_moving="replace")), sheet
 
 
 def _serve(
     setup: Setup,
     room: Room,
     server: WebServer,
-    sockets: tuple[socket.socket, socket.socket],
+    sockets: Sockets,
     tell: Callable[[], None],
     meet: Connect,
+    lesson: RoomLesson | None,
 ) -> int:
-    connection = meet(setup, lambda event: _hear(room, event))
+    connection = meet(replace(setup, trace=lesson is not None), lambda event: _hear(room, lesson, event))
     ended = threading.Event()
     problems: list[Exception] = []
 
@@ -87,6 +122,8 @@ def _serve(
     agents: AgentHost | None = None
     pump = Pump(connection.session, lose)
     room.open(connection, pump.post, is_simulated=setup.on in SIMULATED)
+    if lesson is not None:
+        lesson.open(connection.session)
     try:
         with SignalWatch(connection.session.stop) as watch:
             server.start(*sockets)
@@ -108,26 +145,24 @@ def _serve(
     return STOPPED
 
 
-def _hear(room: Room, event: Event) -> None:
-    """Have the page told, and the terminal what concerns a recording."""
+def _hear(room: Room, lesson: RoomLesson | None, event: Event) -> None:
+    """Have the page told and the lesson judge it, and the terminal told what concerns a recording."""
+    if isinstance(event, TruePose):
+        if lesson is not None:
+            lesson.hear(event)  # from the moment of connecting on
+        return
     if isinstance(event, Notice) and event.reason.code.startswith("recording"):
         print(render_reason(event.reason, language_of_environment()), flush=True)
     room.hear(event)
+    if lesson is not None:
+        lesson.hear(event)
 
 
 def _serve_class(
-    setup: Setup,
-    args: argparse.Namespace,
-    access: Access,
-    sockets: tuple[socket.socket, socket.socket],
-    certificate: tuple[str, str] | None,
+    setup: Setup, classroom: Classroom, server: WebServer, sockets: Sockets, tell: Callable[[], None]
 ) -> int:
-    from chatrobot.web.classroom import Classroom
     from chatrobot.web.pupils import connect_class
-    from chatrobot.web.server import WebServer
 
-    classroom = Classroom(args.pupils, access, args.token)
-    server = WebServer(access, classroom.rooms, certificate, classroom)
     robots = connect_class(setup, list(classroom.rooms), lambda name: classroom.seats[name].hear)
     ended = threading.Event()
     problems: list[Exception] = []
@@ -140,7 +175,7 @@ def _serve_class(
     try:
         with SignalWatch(classroom.stop) as watch:
             server.start(*sockets)
-            _tell(args, access)
+            tell()
             while not (watch.is_leaving or ended.wait(0.1)):
                 pass
             server.close()
@@ -214,8 +249,11 @@ def listen(host: str, port: int | None) -> socket.socket:
     raise UsageError(problem, allowed=allowed)
 
 
-def _tell(args: argparse.Namespace, access: Access) -> None:
+def _tell(
+    args: argparse.Namespace, access: Access, sheet: Sheet | None, recordings: ClassRecordings | None
+) -> None:
     """Print the address; where a token is needed as a link and as a QR code, and the link of those who watch."""
+    from chatrobot.lessons.words import say
     from chatrobot.web.words import web_words
 
     language = language_of_environment()
@@ -232,13 +270,25 @@ def _tell(args: argparse.Namespace, access: Access) -> None:
             segno.make(links[0], error="m").terminal(compact=True)
         if not args.pupils:
             print(web_words(language, "watch_address", url=links[1]), flush=True)
+    if sheet is not None:
+        title, count = sheet.title.in_language(language), len(sheet.tasks)
+        print(say(language, "lesson_of", title=title, count=count), flush=True)
+    if recordings is not None:
+        pattern = recordings.folder / "…_class_pupil_….mcap"
+        print(web_words(language, "class_recorded", path=pattern), flush=True)
+    if not args.no_open:
+        _open(links[0])
+
+
+def _open(link: str) -> None:
+    """Open the page in a browser where there is a screen, and a person at it."""
     may_open = sys.stdout.isatty() and (
         sys.platform == "darwin" or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
     )
-    if may_open and not args.no_open:
+    if may_open:
         import webbrowser
 
-        threading.Thread(target=webbrowser.open, args=(links[0],), daemon=True).start()
+        threading.Thread(target=webbrowser.open, args=(link,), daemon=True).start()
 
 
 def _reachable(host: str) -> str:

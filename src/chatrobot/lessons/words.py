@@ -10,6 +10,7 @@ from chatrobot.language.names import by_language
 from chatrobot.lessons.attempt import Values
 from chatrobot.lessons.checks import Finding
 from chatrobot.lessons.run import LessonRun, Verdict
+from chatrobot.lessons.sheet import Task
 
 
 def say(language: str, phrase: str, /, **values: Value) -> str:
@@ -84,9 +85,8 @@ def describe_task(run: LessonRun, language: str) -> list[str]:
     return lines
 
 
-def describe_hint(run: LessonRun, language: str) -> str:
-    """The hint of the task, which counts as one."""
-    task = run.hint()
+def describe_hint(task: Task | None, language: str) -> str:
+    """The hint of a task."""
     if task is None or task.hint is None:
         return say(language, "hint_none")
     return say(language, "hint_is", hint=task.hint.in_language(language))

@@ -21,6 +21,7 @@ from chatrobot.core.event import strict_json
 from chatrobot.core.events import Event, Interpreted, Notice
 from chatrobot.core.reason import Reason
 from chatrobot.recording.redactor import Redactor
+from chatrobot.recording.thinning import Thinning
 from chatrobot.recording.topics import (
     CHATGPT_NODE,
     CMD_VEL,
@@ -43,6 +44,8 @@ MOST_WAITING = 5_000
 """Messages in the queue: half a minute of a moving robot with a lidar."""
 LOOK_S, FLUSH_S = 0.1, 0.25
 """How often the queue is looked at, and how often what was written is handed to the operating system."""
+LOOK_OF_MANY_S = 0.5
+"""Where many are recorded: each waking takes the interpreter from all the others."""
 LOAD_AFTER_S = 0.3
 """The libraries are loaded this long after the start: a prompt is drawn, and a first key echoed, before."""
 _NEVER_HEARD = frozenset({"pose", "scan"})
@@ -56,15 +59,24 @@ class Recorder:
         path: the file, which is made here: nothing is there yet, and its folder is.
         clock: that of the robot; on simulated time the sender waits where the queue is full, and nothing is dropped.
         limit_bytes: the recording ends where its file has become so long.
+        is_one_of_many: more robots are recorded by this process: less is written, and less often (`Thinning`).
 
     Raises:
         OSError: the file cannot be made.
     """
 
     def __init__(
-        self, path: Path, redactor: Redactor, *, clock: Clock | None = None, limit_bytes: float = math.inf
+        self,
+        path: Path,
+        redactor: Redactor,
+        *,
+        clock: Clock | None = None,
+        limit_bytes: float = math.inf,
+        is_one_of_many: bool = False,
     ) -> None:
         self.path = path
+        self._thinning = Thinning() if is_one_of_many else None
+        self._look_s = LOOK_OF_MANY_S if is_one_of_many else LOOK_S
         self._redactor = redactor
         self._clock = clock or RealClock()
         self._is_simulated = not isinstance(self._clock, RealClock)
@@ -110,10 +122,13 @@ class Recorder:
         """Take in a message of that topic, which has been received just now."""
         if self.is_over:
             return
+        now_s = self._clock.now_s()
+        if self._thinning is not None and not self._thinning.keeps(topic, message, now_s):
+            return
         if len(self._queue) >= MOST_WAITING and not self._waited():
             self._dropped += 1
             return
-        self._queue.append((topic, message, self._began_ns + int(self._clock.now_s() * 1e9)))
+        self._queue.append((topic, message, self._began_ns + int(now_s * 1e9)))
 
     def hear(self, event: Event) -> None:
         """Take in an event."""
@@ -173,7 +188,7 @@ class Recorder:
     def _write_all(self, writer: RecordingWriter) -> None:
         flushed_s = -math.inf
         while True:
-            is_last = self._is_closing.wait(LOOK_S)
+            is_last = self._is_closing.wait(self._look_s)
             self._redactor.refresh()
             has_news = self._drain(writer)
             if has_news and time.monotonic() - flushed_s >= FLUSH_S:

@@ -16,13 +16,21 @@ from starlette.websockets import WebSocket
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Result, Telemetry
 from chatrobot.dialogue.pump import Pump
+from chatrobot.language.interpretation import LanguageCode
+from chatrobot.lessons.run import LessonRun
+from chatrobot.lessons.sheet import Sheet
+from chatrobot.sim.robot import TRUTH_TOPIC
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Access
+from chatrobot.web.class_recordings import ClassRecordings
 from chatrobot.web.connection import Conversation, Page
-from chatrobot.web.outbox import Message
+from chatrobot.web.lesson import RoomLesson
+from chatrobot.web.outbox import Face, Message
 from chatrobot.web.protocol import MOST_TEXT_CHARS, Fields, is_text
 from chatrobot.web.pupils import PupilsRobot
-from chatrobot.web.room import Face, Room
+from chatrobot.web.robot_wires import RobotWires
+from chatrobot.web.room import Room
 from chatrobot.web.words import refused, told, web_words
+from chatrobot.wire.messages import Odometry
 
 TELL_S = 0.25
 """So often the teacher's page is told of all robots."""
@@ -42,6 +50,8 @@ class Seat:
     def __init__(self, name: str, token: str) -> None:
         self.room = Room(name)
         self.token = token
+        self.lesson: RoomLesson | None = None
+        self.record: Callable[[Event], None] = lambda _: None
         self._telemetry: Telemetry | None = None
         self._plan_text = self._reply = self._outcome = ""
 
@@ -53,9 +63,12 @@ class Seat:
             self._plan_text, self._reply, self._outcome = event.plan_text, event.reply, ""
         elif isinstance(event, Result):
             self._plan_text, self._reply, self._outcome = "", event.reply, event.outcome
+        self.record(event)
         self.room.hear(event)
+        if self.lesson is not None:
+            self.lesson.hear(event)
 
-    def facts(self) -> dict[str, Any]:
+    def facts(self, language: LanguageCode = "en") -> dict[str, Any]:
         """Return what the teacher's page shows of it."""
         seen = self._telemetry
         return {
@@ -69,6 +82,7 @@ class Seat:
             "plan_text": self._plan_text[:_MOST_SHOWN_CHARS],
             "reply": self._reply[:_MOST_SHOWN_CHARS],
             "outcome": self._outcome,
+            "lesson": self.lesson.facts(language) if self.lesson is not None else None,
         }
 
 
@@ -78,14 +92,25 @@ class Classroom:
     Args:
         access: gives each pupil a token that is good for their own robot, and the teacher one for all.
         token: the teacher's, where one was chosen.
+        sheet: the lesson that every pupil takes.
+        recordings: keeps what every pupil's robot does.
     """
 
-    def __init__(self, count: int, access: Access, token: str = "") -> None:
+    def __init__(
+        self,
+        count: int,
+        access: Access,
+        token: str = "",
+        sheet: Sheet | None = None,
+        recordings: ClassRecordings | None = None,
+    ) -> None:
         names = [str(place) for place in range(1, count + 1)]
         self._access = access
         self.token = access.issue("teacher", token=token)
         self.seats = {name: Seat(name, access.issue("pupil", name)) for name in names}
         self.rooms: Mapping[str, Room] = {name: seat.room for name, seat in self.seats.items()}
+        self.sheet, self.recordings = sheet, recordings
+        self._wires: RobotWires | None = None
         self.task = ""
         self.stop_port = 0
         self._faces: dict[str, Face] = {}
@@ -106,9 +131,32 @@ class Classroom:
             pump = Pump(robot.connection.session, partial(_lose, room, robot, on_gone))
             room.open(robot.connection, pump.post, is_simulated=True, release=robot.release)
             self._pumps.append(pump)
+        if self.sheet is not None or self.recordings is not None:
+            self._wires = self._listen(robots)
         for pump in self._pumps:
             pump.start()
         threading.Thread(target=self._tell_all, name="class", daemon=True).start()
+
+    def _listen(self, robots: Sequence[PupilsRobot]) -> RobotWires:
+        """Have what the robots do recorded, and judged by the lesson."""
+        wires = RobotWires({robot.name: robot.wire_path for robot in robots})
+        if self.recordings is not None:
+            for robot in robots:
+                self.seats[robot.name].record = partial(self.recordings.hear, robot.name)
+            self.recordings.open(((robot, self.rooms[robot.name]) for robot in robots), wires)
+        if self.sheet is not None:
+            for robot in robots:
+                self._begin_lesson(self.sheet, robot, wires)
+        wires.start()
+        return wires
+
+    def _begin_lesson(self, sheet: Sheet, robot: PupilsRobot, wires: RobotWires) -> None:
+        profile, name = robot.connection.profile, robot.name
+        run, up_to_date = LessonRun(sheet, profile.footprint), partial(wires.bring_up_to_date, name)
+        lesson = RoomLesson(run, self.rooms[name], profile.title, up_to_date)
+        wires.subscribe(name, TRUTH_TOPIC, Odometry, lesson.hear_truth)
+        lesson.open(robot.connection.session)
+        self.seats[name].lesson = lesson
 
     def close(self) -> None:
         """Stop the robots, and end what they stand on."""
@@ -117,6 +165,10 @@ class Classroom:
             with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
                 robot.connection.session.stop("the web console has ended")
             pump.stop()
+        if self._wires is not None:
+            self._wires.close()
+        if self.recordings is not None:
+            self.recordings.close()
         with ThreadPoolExecutor(
             max(1, len(self._robots))
         ) as pool:  # each waits for the Motion that all share
@@ -133,6 +185,7 @@ class Classroom:
             "role": "teacher",
             "stop_port": self.stop_port,
             "task": self.task,
+            "recorded": self.recordings is not None,
         }
         face.put(told("hello", **hello, may=["stop", "emergency_stop", "release"], steering=None, history=[]))
         face.put(self._message())
@@ -183,14 +236,29 @@ class Classroom:
             )
         )
 
+    def move_to(self, number: int) -> None:
+        """Have everybody leave out the tasks before that one; who is further already stays there."""
+        for seat in self.seats.values():
+            if seat.lesson is not None:
+                seat.lesson.move_to(number)
+
     def _each(self, act: Callable[[Room], None]) -> None:
         for room in self.rooms.values():
             with contextlib.suppress(LinkError):  # that one is gone, and the guard halts it
                 act(room)
 
     def _message(self) -> Message:
-        facts = [seat.facts() for seat in self.seats.values()]
-        return Message(lambda _: {"is": "class", "robots": facts}, is_droppable=True)
+        def facts(language: LanguageCode) -> dict[str, Any]:
+            robots = [seat.facts(language) for seat in self.seats.values()]
+            return {"is": "class", "robots": robots, "lesson": self._lesson_facts(language)}
+
+        return Message(facts, is_droppable=True)
+
+    def _lesson_facts(self, language: LanguageCode) -> dict[str, Any] | None:
+        if (sheet := self.sheet) is None:
+            return None
+        tasks = [task.title.in_language(language) for task in sheet.tasks]
+        return {"title": sheet.title.in_language(language), "tasks": tasks}
 
     def _tell_all(self) -> None:
         while not self._ended.wait(TELL_S):
@@ -220,6 +288,8 @@ FIELDS: Fields = {
     "release": {"room?": _ROOM},
     "task": {"text": is_text(MOST_TEXT_CHARS)},
     "revoke": {"room": _ROOM},
+    "record": {"room": _ROOM},
+    "move_to": {"number": lambda value: type(value) is int and value >= 1},
     "language": {"code": lambda value: value in ("en", "zh")},
 }
 """What a teacher's page may say; without a room it is about all of them."""
@@ -237,6 +307,11 @@ def serve_teacher(websocket: WebSocket, classroom: Classroom, page: Page) -> Con
             page.put(refused("malformed", word, problem=f"there is no robot {message['room']!r}"))
         elif word == "revoke":
             classroom.revoke(message["room"])
+        elif word == "record":
+            if classroom.recordings is not None:
+                classroom.recordings.record(message["room"])
+        elif word == "move_to":
+            classroom.move_to(message["number"])
         elif word == "task":
             classroom.hand_out(message["text"])
         elif word == "language":

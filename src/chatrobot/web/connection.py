@@ -15,9 +15,9 @@ from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
-from chatrobot.web.outbox import Message, Outbox
+from chatrobot.web.outbox import Face, Message, Outbox
 from chatrobot.web.protocol import FIELDS, Fields, MalformedError, read_message
-from chatrobot.web.room import Face, Room
+from chatrobot.web.room import Room
 from chatrobot.web.words import refused, web_words
 
 CLOSE_S = 0.5

@@ -1,4 +1,7 @@
-"""What waits to be sent to one page: bounded, and never waited for by whoever puts something in."""
+"""What pages are told: messages, who is told them, and what waits to be sent to one page.
+
+That is bounded, and never waited for by whoever puts something in.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,11 @@ import contextlib
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from chatrobot.core.event import strict_json
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.web.access import Pass
 
 MOST_DROPPABLE = 40
 """So many messages wait before the oldest telemetry and scans are left out."""
@@ -43,6 +47,28 @@ class Message:
         if text is None:
             text = self._texts[language] = strict_json(self._make(language), is_compact=True)
         return text
+
+
+class Face(Protocol):
+    """Somebody who is told what happens: a page."""
+
+    id: str
+    name: str
+    language: LanguageCode
+    pass_: Pass
+
+    @property
+    def is_local(self) -> bool:
+        """It is at this machine."""
+        ...
+
+    def unread_bytes(self) -> int:
+        """Return how much has come from it that the event loop has not read yet. From any thread."""
+        ...
+
+    def put(self, message: Message) -> None:
+        """Tell it. Called on any thread; returns at once."""
+        ...
 
 
 class Outbox:

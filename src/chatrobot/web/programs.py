@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from chatrobot.core.errors import InputError
 from chatrobot.dialogue.session import Session
@@ -11,12 +11,10 @@ from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason
 from chatrobot.programs.library import KeptProgram
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.web.outbox import Message
+from chatrobot.web.outbox import Face, Message
 from chatrobot.web.words import refused, told
 
-if TYPE_CHECKING:
-    from chatrobot.web.room import Face, Post
-
+Post = Callable[[Callable[[], None]], None]
 Say = Callable[[], int]
 
 
@@ -45,7 +43,7 @@ class Programs:
         """Tell one with its source, and what is risky in it."""
         self._read(face, "program", lambda: self._tell(face, self._get(name)))
 
-    def run(self, face: Face, name: str, say_as: Callable[[Say], None]) -> None:
+    def run(self, face: Face, name: str, say_as: Callable[[Say], int]) -> None:
         """Have one rehearsed and run; `say_as` notes who said so."""
 
         def begin() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from chatrobot.compose import Connection, OnEvent, Setup, connect, default_world
 from chatrobot.core.errors import UsageError
@@ -25,10 +26,11 @@ _TEACHER = "console"
 
 @dataclass
 class PupilsRobot:
-    """One pupil's robot and the session that drives it."""
+    """One pupil's robot and the session that drives it; `wire_path` is where others hear it."""
 
     name: str
     connection: Connection
+    wire_path: Path
 
     def release(self) -> None:
         """Release its emergency stop, as the teacher. Motion's notice says what became of it.
@@ -83,6 +85,6 @@ def connect_class(
         for place, (name, processes) in enumerate(zip(names, started), 1):
             folder = setup.folder / "class" / f"pupil-{place}" if setup.folder is not None else None
             own = replace(setup, processes=processes, folder=folder)
-            robots.append(PupilsRobot(name, connect(own, on_event_of(name))))
+            robots.append(PupilsRobot(name, connect(own, on_event_of(name)), processes.wire_path))
         ended_early.pop_all()
     return robots

@@ -9,7 +9,7 @@ import contextlib
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
@@ -18,42 +18,18 @@ from chatrobot.language.interpretation import LanguageCode
 from chatrobot.link.client_line import TURNS
 from chatrobot.plan.steps import Go, Plan
 from chatrobot.plan.text import format_plan
-from chatrobot.reflex import is_emergency_stop
-from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
+from chatrobot.reflex import is_emergency_stop, is_release
+from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON
 from chatrobot.web.asked_plans import AskedPlans
 from chatrobot.web.camera import CameraView
 from chatrobot.web.facts import place_facts, robot_facts, world_facts
-from chatrobot.web.outbox import Message
-from chatrobot.web.programs import Programs
+from chatrobot.web.outbox import Face, Message
+from chatrobot.web.programs import Post, Programs
 from chatrobot.web.steering import NOBODY, Steering
-from chatrobot.web.words import PASSING, UNTOLD, event_message, refused, told, web_words
+from chatrobot.web.words import PASSING, UNTOLD, event_message, noted, refused, told, web_words
 
 HISTORY = 200
 """Messages that a page is told which comes later."""
-
-Post = Callable[[Callable[[], None]], None]
-
-
-class Face(Protocol):
-    """Somebody who is told what happens: a page."""
-
-    id: str
-    name: str
-    language: LanguageCode
-    pass_: Pass
-
-    @property
-    def is_local(self) -> bool:
-        """It is at this machine."""
-        ...
-
-    def unread_bytes(self) -> int:
-        """Return how much has come from it that the event loop has not read yet. From any thread."""
-        ...
-
-    def put(self, message: Message) -> None:
-        """Tell it. Called on any thread; returns at once."""
-        ...
 
 
 class Room:
@@ -67,8 +43,11 @@ class Room:
         self._lock = threading.RLock()
         self._faces: dict[str, Face] = {}
         self._history: deque[Message] = deque(maxlen=HISTORY)
+        self._pinned: dict[str, Message] = {}
         self._turns: dict[int, str] = {}
         self.plans = AskedPlans()
+        self.take_command: Callable[[Face, str], bool] = lambda _, __: False
+        """Does what is no sentence for the robot; False where it is one."""
         self.is_latched = self._release_is_due = False
         self.stop_port = 0
         """Where the line listens that stops."""
@@ -143,6 +122,12 @@ class Room:
         """Tell everybody who is here, and who comes later."""
         with self._lock:
             self._tell(message, is_kept=True)
+
+    def pin(self, key: str, message: Message) -> None:
+        """Tell everybody what stays true until it is told anew: who comes later hears it after all else."""
+        with self._lock:
+            self._pinned[key] = message
+            self._tell(message)
 
     @property
     def face_count(self) -> int:
@@ -252,9 +237,10 @@ class Room:
         }
 
     def history(self, language: LanguageCode) -> list[dict[str, Any]]:
-        """Return what was told so far, oldest first."""
+        """Return what was told so far, oldest first, and then what is so now."""
         with self._lock:
-            return [message.object_in(language) for message in self._history]
+            kept = (*self._history, *self._pinned.values())
+            return [message.object_in(language) for message in kept]
 
     def _watch_scans(self) -> None:
         with contextlib.suppress(LinkError):  # nothing is there to be looked at
@@ -282,10 +268,23 @@ class Room:
 
     def say(self, face: Face, text: str) -> None:
         """Take a sentence in. A stop is out before this returns."""
+        if self.take_command(face, text):
+            return
+        if is_release(text):
+            self._release_for(face, text)
+            return
         self._say_as(face, text, lambda: self.session.say(text))
         if is_emergency_stop(text):
             with self._lock:
                 self._set_alarm(True)
+
+    def _release_for(self, face: Face, text: str) -> None:
+        """Do what the button does, for whom it is there; tell others who has it. No turn begins."""
+        self.note_said(0, text, face.id, face.name)
+        if face.pass_.may_release:
+            self.release()
+            return
+        self.tell_people(noted("release_by_teacher" if face.pass_.role == "pupil" else "release_elsewhere"))
 
     def say_plan(self, face: Face, plan_text: str) -> None:
         """Take in a plan that a person wrote."""
@@ -331,13 +330,18 @@ class Room:
         else:
             face.put(refused("question_over", "approve"))
 
-    def _say_as(self, face: Face, text: str, say: Callable[[], int]) -> None:
+    def drive(self, face: Face, plan_text: str) -> int:
+        """Have the robot do what that page asked for by a button; the number of the turn."""
+        return self._say_as(face, "", lambda: self.session.say_plan(plan_text))
+
+    def _say_as(self, face: Face, text: str, say: Callable[[], int]) -> int:
         with self._lock:  # what was said is told before what it brings about
             turn = say()
             if turn not in self.session.results:
                 self._turns[turn] = face.id
             if text:
                 self.note_said(turn, text, face.id, face.name)
+            return turn
 
     def note_said(self, turn: int, text: str, by: str, name: str) -> None:
         """Tell everybody what somebody said."""

@@ -29,6 +29,7 @@ from starlette.websockets import WebSocket
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.process import wake_promptly
 from chatrobot.web.access import Access, Pass, Refusal, address_of
+from chatrobot.web.class_files import recording_routes
 from chatrobot.web.classroom import Classroom, serve_teacher
 from chatrobot.web.connection import Page, serve_room
 from chatrobot.web.limits import AbortableWebSocket, LimitedProtocol, is_news
@@ -159,12 +160,14 @@ class WebServer:
         return room if room is not None or pass_.role != "teacher" else self._classroom
 
     def _application(self) -> ASGIApp:
+        classroom = self._classroom
         return Starlette(
             routes=[
                 Route("/me", self._me),
                 Route("/enter", self._enter, methods=["POST"]),
                 WebSocketRoute("/ws", self._page),
                 WebSocketRoute("/class", self._teachers_page),
+                *(recording_routes(self.access, classroom.recordings) if classroom is not None else ()),
                 Route("/{path:path}", self._file),
             ]
         )

@@ -35,6 +35,11 @@ def told(kind: str, **values: Any) -> Message:
     return Message(lambda _: {"is": kind, **values})
 
 
+def noted(code: str, **values: object) -> Message:
+    """Make the message of a line in the chat that belongs to no turn."""
+    return Message(lambda language: {"is": "note", "text": web_words(language, code, **values)})
+
+
 def refused(why: str, do: str = "", **values: object) -> Message:
     """Make the message that something was not done: `why` is a code that stays, `do` what was asked."""
     return Message(

@@ -76,7 +76,7 @@ class ConsoleLesson:
 
     def hint(self, _: ChatController, __: str) -> None:
         """Show the hint."""
-        self._say(describe_hint(self.run, self.language))
+        self._say(describe_hint(self.run.hint(), self.language))
 
     def skip(self, _: ChatController, __: str) -> None:
         """Leave the task out."""

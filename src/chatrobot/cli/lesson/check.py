@@ -185,7 +185,7 @@ class LessonConversation:
                 self._referee.write(f"  {say(language, 'skipped', number=run.number)}")
                 run.skip()
             case "/hint":
-                self._referee.write(f"  {describe_hint(run, language)}")
+                self._referee.write(f"  {describe_hint(run.hint(), language)}")
             case command:
                 self._referee.write(f"  {command}: /again, /skip, /hint")
 

@@ -35,7 +35,7 @@ def run(args: argparse.Namespace) -> int:
     _check(args)
     if args.solutions:
         return _print_solutions(sheet)
-    setup = _setup(args, sheet)
+    setup = setup_of(args, sheet, is_alone=bool(args.check or args.test))
     if args.check or args.test:
         from chatrobot.cli.lesson import check, trial
 
@@ -59,12 +59,21 @@ def _take(args: argparse.Namespace, sheet: Sheet, setup: Setup) -> int:
     return code or (0 if lesson.run.is_passed else 1)
 
 
-def _check(args: argparse.Namespace) -> None:
-    """Refuse options that do not fit."""
+def check_robot(args: argparse.Namespace) -> None:
+    """Refuse a robot or a world that is not the lesson's.
+
+    Raises:
+        UsageError: that is what was chosen.
+    """
     if args.world:
         raise UsageError("a lesson has its own world", where="--world", allowed="world: NAME in the sheet")
     if args.on not in SIMULATED:
         raise UsageError("a lesson is judged by the simulated robot's true pose", where="--on", allowed="sim")
+
+
+def _check(args: argparse.Namespace) -> None:
+    """Refuse options that do not fit."""
+    check_robot(args)
     ways = [name for name in ("check", "test", "solutions") if getattr(args, name)]
     if len(ways) > 1:
         raise UsageError("these do not go together", where=" ".join(f"--{name}" for name in ways))
@@ -79,8 +88,8 @@ def _check(args: argparse.Namespace) -> None:
         )
 
 
-def _setup(args: argparse.Namespace, sheet: Sheet) -> Setup:
-    is_alone = bool(args.check or args.test)
+def setup_of(args: argparse.Namespace, sheet: Sheet, *, is_alone: bool = False) -> Setup:
+    """Gather what was chosen, with the world and the robot of the lesson. `is_alone`: no person is there."""
     setup = setup_from(args, world=sheet.world_name, named_model=is_alone, programs=True)
     robot = args.robot if args.names_robot else sheet.robot
     return replace(setup, world=sheet.world_name, robot=robot)

@@ -22,8 +22,9 @@ export function onEditPlan(listener) {
   editPlan = listener;
 }
 
+/** What belongs to no turn (0) has an entry of its own each time. */
 function entryOf(turn) {
-  let entry = entries.get(turn);
+  let entry = turn ? entries.get(turn) : null;
   if (!entry) {
     entry = {
       turn,
@@ -215,6 +216,11 @@ export function startChat() {
     else change(() => hear(entryOf(event.turn), event, message.text));
   });
   on("lost", (message) => noteLine(message.text));
+  on("note", (message) => noteLine(message.text));
+  on("verdict", (message) => {
+    noteLine(`${message.state === "passed" ? "✓" : "→"} ${message.text}`);
+    if (!state.isReplaying) speak(message.text, language());
+  });
   keepEndInSight();
   on("task", (message) => noteLine(`${message.title}: ${message.text}`));
 }

@@ -5,6 +5,7 @@ import { onEditPlan, startChat } from "./chat.js";
 import { connect, on, replay, send, state } from "./connection.js";
 import { byId } from "./dom.js";
 import { startGauges } from "./gauges.js";
+import { startLesson } from "./lesson.js";
 import { asksBeforeTaps, startMap } from "./map.js";
 import { startPlaces } from "./places.js";
 import { editPlan, startPlan } from "./plan.js";
@@ -41,6 +42,7 @@ function startLanguage() {
 startSteering();
 startSayBox();
 startChat();
+startLesson();
 startPlan();
 startMap();
 startPlaces(asksBeforeTaps);

@@ -2,6 +2,7 @@
 
 import { connect, on, send } from "./connection.js";
 import { byId, make, makeButton, setBanner, setText } from "./dom.js";
+import { showRecordings, startRecordings } from "./recordings.js";
 import { onStop } from "./stop.js";
 import { firstLanguage, language, onLanguage, setLanguage, t } from "./words.js";
 
@@ -12,6 +13,7 @@ const REALLY_MS = 4000;
 const list = byId("robots");
 const cards = new Map();
 let robots = [];
+let lesson = null;
 let noticeTimer = 0;
 let saidTimer = 0;
 
@@ -48,6 +50,7 @@ function makeCard(robot) {
     state: make("span", "chip"),
     where: make("p", "where"),
     who: make("p", "who"),
+    lesson: make("p", "lesson"),
     doing: make("p", "doing"),
     stop: makeButton("", "small stop-one", () => send({ do: "stop", room })),
     release: makeButton("", "small", () => send({ do: "release", room })),
@@ -61,7 +64,7 @@ function makeCard(robot) {
   card.open.rel = "noopener";
   const head = make("header", "", card.title, card.state);
   const buttons = make("div", "buttons", card.stop, card.release, card.link, card.end, card.open);
-  card.item.append(head, card.who, card.where, card.doing, buttons);
+  card.item.append(head, card.who, card.where, card.lesson, card.doing, buttons);
   list.append(card.item);
   cards.set(room, card);
   return card;
@@ -88,6 +91,7 @@ function drawCard(robot) {
   const [x, y, yaw] = robot.pose || [0, 0, 0];
   const heading = Math.round((yaw * 180) / Math.PI);
   setText(card.where, robot.pose ? t("pose", { x: x.toFixed(2), y: y.toFixed(2), heading }) : "");
+  drawTask(card.lesson, robot.lesson);
   setText(card.doing, robot.plan_text || robot.reply);
   card.doing.dataset.outcome = robot.plan_text ? "" : robot.outcome;
   label(card.stop, t("stop"), name);
@@ -98,7 +102,33 @@ function drawCard(robot) {
   card.release.hidden = !robot.emergency;
 }
 
+/** Where a pupil is in the lesson, and what the last turn achieved. */
+function drawTask(line, at) {
+  line.hidden = !at;
+  if (!at || !lesson) return;
+  const passed = at.states.filter((one) => one === "passed").length;
+  const values = { number: at.number, count: at.states.length, title: at.title, passed };
+  const where = t(at.title ? "lesson_at" : "lesson_done", values);
+  setText(line, at.verdict ? `${where} ${at.verdict}` : where);
+  line.dataset.state = at.title ? at.verdict_state : "passed";
+}
+
+function drawLesson() {
+  byId("lesson-form").hidden = !lesson;
+  if (!lesson) return;
+  setText(byId("lesson-title"), lesson.title);
+  const done = robots.filter((robot) => robot.lesson && robot.lesson.states.every((one) => one === "passed")).length;
+  setText(byId("lesson-state"), t("lesson_state", { count: robots.length, done }));
+  const select = byId("lesson-task");
+  const names = lesson.tasks.map((title, at) => t("lesson_task", { number: at + 1, title }));
+  if (names.join() === [...select.options].map((one) => one.text).join()) return;
+  const chosen = Math.max(1, select.selectedIndex);
+  select.replaceChildren(...names.map((name) => make("option", "", name)));
+  select.selectedIndex = Math.min(chosen, names.length - 1);
+}
+
 function draw() {
+  drawLesson();
   for (const robot of robots) drawCard(robot);
   const moving = robots.filter((robot) => robot.moving).length;
   setText(byId("class-state"), t("class_state", { count: robots.length, moving }));
@@ -118,10 +148,12 @@ on("open", () => {
   send({ do: "language", code: language() });
 });
 on("hello", (message) => {
+  if (message.recorded) showRecordings();
   if (message.task && !byId("task").value) byId("task").value = message.task;
 });
 on("class", (message) => {
   robots = message.robots;
+  lesson = message.lesson;
   draw();
 });
 on("refused", (message) => notice(message.text));
@@ -141,5 +173,11 @@ byId("task-form").addEventListener("submit", (event) => {
   const text = byId("task").value.trim();
   if (text && send({ do: "task", text })) notice(t("task_handed_out"));
 });
+byId("lesson-form").addEventListener("submit", (event) => {
+  event.preventDefault();
+  const number = byId("lesson-task").selectedIndex + 1;
+  if (send({ do: "move_to", number })) notice(t("lesson_moved", { number }));
+});
+startRecordings(notice);
 await setLanguage(firstLanguage());
 connect("/class");

@@ -1,0 +1,117 @@
+/** The recordings of a class on the teacher's page: listed, fetched, deleted at the second press, begun anew. */
+
+import { send } from "./connection.js";
+import { byId, make, makeButton, setText } from "./dom.js";
+import { language, onLanguage, t } from "./words.js";
+
+const LOOK_MS = 3000;
+const REALLY_MS = 4000;
+const ALL = "";
+
+const panel = byId("recordings");
+const list = byId("recording-list");
+let known = null;
+let asked = null;
+let timer = 0;
+let tellNotice = () => {};
+
+/** Ask for the list, or have something deleted, which is answered by the list, too. */
+async function ask(method = "GET", name = "") {
+  const answer = await fetch(`recordings${name && `/${encodeURIComponent(name)}`}`, { method, cache: "no-store" }).catch(() => null);
+  if (!answer) return;
+  const told = await answer.json().catch(() => ({}));
+  if (answer.ok) known = told;
+  else if (told.text) tellNotice(told.text);
+  draw();
+}
+
+/** Nothing is deleted by a finger that slips. */
+function deleteAfterAsking(name) {
+  clearTimeout(timer);
+  if (asked !== name) {
+    asked = name;
+    timer = setTimeout(() => {
+      asked = null;
+      draw();
+    }, REALLY_MS);
+  } else {
+    asked = null;
+    ask("DELETE", name);
+  }
+  draw();
+}
+
+function megabytes(bytes) {
+  return (bytes / 1e6).toFixed(1);
+}
+
+/** Fetch a file and have the browser save it; a report takes a moment to be made, and its maker may say why not. */
+async function save(name, link) {
+  if (link.getAttribute("aria-busy") === "true") return;
+  link.setAttribute("aria-busy", "true");
+  tellNotice(t("recording_made", { name }));
+  const answer = await fetch(`recordings/${encodeURIComponent(name)}?language=${language()}`, { cache: "no-store" }).catch(() => null);
+  link.removeAttribute("aria-busy");
+  if (!answer || !answer.ok) {
+    const told = answer ? await answer.json().catch(() => ({})) : {};
+    tellNotice(told.text || t("no_connection"));
+    return;
+  }
+  const saved = make("a");
+  saved.href = URL.createObjectURL(await answer.blob());
+  saved.download = name;
+  saved.click();
+  setTimeout(() => URL.revokeObjectURL(saved.href), REALLY_MS);
+  tellNotice(t("recording_saved", { name }));
+}
+
+function rowOf(file) {
+  const pupil = t("pupil", { name: file.pupil });
+  const values = { name: pupil, time: file.name.slice(11, 19).replaceAll("-", ":"), size: megabytes(file.size_bytes) };
+  const button = (word, act) => {
+    const made = makeButton(t(word), "small", () => act(made));
+    made.setAttribute("aria-label", `${t(word)}: ${pupil}, ${values.time}`);
+    made.dataset.key = `${word} ${file.name}`;
+    return made;
+  };
+  return make("li", "",
+    make("span", "", t(file.written ? "recording_written" : "recording_whole", values)),
+    make("span", "space"),
+    button("recording_download", (made) => save(file.name, made)),
+    button("recording_report", (made) => save(file.name.replace(/mcap$/, "html"), made)),
+    button(asked === file.name ? "recording_delete_really" : "recording_delete", () => deleteAfterAsking(file.name)));
+}
+
+function draw() {
+  if (!known) return;
+  panel.hidden = false;
+  const { files, unrecorded, folder } = known;
+  const size = megabytes(files.reduce((sum, file) => sum + file.size_bytes, 0));
+  setText(byId("recordings-head"), t("recordings_title", { count: files.length, size }));
+  const missing = unrecorded.length ? t("recordings_unrecorded", { names: unrecorded.join(", ") }) : "";
+  setText(byId("recordings-about"), `${t("recordings_about", { folder })} ${missing}`);
+  byId("recordings-record").hidden = !unrecorded.length;
+  byId("recordings-delete").hidden = !files.length;
+  setText(byId("recordings-delete"), t(asked === ALL ? "recordings_delete_really" : "recordings_delete"));
+  if (!panel.open) return;
+  const focused = document.activeElement && list.contains(document.activeElement) ? document.activeElement.dataset.key : "";
+  list.replaceChildren(...files.map(rowOf));
+  if (focused) [...list.querySelectorAll("button")].find((one) => one.dataset.key === focused)?.focus();
+}
+
+/** Show them: the class is recorded. */
+export function showRecordings() {
+  ask();
+}
+
+export function startRecordings(notice) {
+  tellNotice = notice;
+  panel.addEventListener("toggle", () => ask());
+  setInterval(() => panel.open && !asked && !document.hidden && ask(), LOOK_MS);
+  byId("recordings-delete").addEventListener("click", () => deleteAfterAsking(ALL));
+  byId("recordings-record").addEventListener("click", () => {
+    for (const room of known.unrecorded) send({ do: "record", room });
+    setTimeout(ask, LOOK_MS / 10);
+  });
+  onLanguage(draw);
+}
