@@ -1,12 +1,14 @@
 """A class whose robots all move: the period of their velocities, and what it costs: python -m bench.classroom [N …]
 
 Velocities are timed at a subscriber in another process. Promised for 20 robots on two idle cores: 50 Hz, the period
-within 10 ms of 20 ms at p99, and under 1.5 GB for all processes together. The last line of each is about all but two of
-them, while one pupil has a program rehearsed that never ends, and another a plan of many lines, again and again.
+within 10 ms of 20 ms at p99, and under 1.5 GB for all processes together. The second line of each is the same while
+every robot is recorded, as `chatrobot web --class` does it: what `sessions` use more is the cost of that. The last
+one is about all but two of them, while one pupil has a program rehearsed that never ends, and another a long plan.
 """
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
 import statistics
@@ -15,16 +17,21 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
 from bench import percentile
 from chatrobot.compose import Setup
+from chatrobot.core.events import Event
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session
 from chatrobot.programs.library import KeptProgram
-from chatrobot.web.pupils import connect_class
+from chatrobot.recording.shelf import make_folder
+from chatrobot.web.class_recordings import ClassRecordings
+from chatrobot.web.pupils import PupilsRobot, connect_class
+from chatrobot.web.robot_wires import RobotWires
+from chatrobot.web.room import Room
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 
@@ -106,6 +113,30 @@ def _rehearse(sessions: Sequence[Session]) -> None:
         time.sleep(0.01)
 
 
+def _ignore(_: Event) -> None:
+    """Nothing is recorded."""
+
+
+@contextlib.contextmanager
+def recorded(
+    robots: Sequence[PupilsRobot], taps: dict[str, Callable[[Event], None]], folder: Path
+) -> Iterator[None]:
+    """Record the class meanwhile, and say how much that was."""
+    wires = RobotWires({robot.name: robot.wire_path for robot in robots})
+    recordings = ClassRecordings(make_folder(folder), tuple)
+    recordings.open([(robot, Room(robot.name)) for robot in robots], wires)
+    taps.update({robot.name: partial(recordings.hear, robot.name) for robot in robots})
+    wires.start()
+    began_s = time.monotonic()
+    time.sleep(1.0)  # the libraries are loaded
+    yield
+    taps.clear()
+    wires.close()
+    recordings.close()
+    size_kb = sum(file["size_bytes"] for file in recordings.facts()["files"]) / 1e3
+    print(f"  {size_kb / len(robots) / (time.monotonic() - began_s):.1f} kB a second and robot")
+
+
 def print_row(name: str, listener: subprocess.Popen[str], pids: dict[str, int], first: int) -> None:
     """Measure for a while, and print the figures of all robots from that one on."""
     assert listener.stdin is not None
@@ -131,9 +162,9 @@ def print_row(name: str, listener: subprocess.Popen[str], pids: dict[str, int], 
 def measure(count: int, folder: str) -> None:
     """Print the figures of a class of so many."""
     names = [str(place) for place in range(count)]
-    robots = connect_class(
-        Setup(world="home", folder=Path(folder), programs=True), names, lambda _: lambda _: None
-    )
+    taps: dict[str, Callable[[Event], None]] = {}
+    setup = Setup(world="home", folder=Path(folder), programs=True)
+    robots = connect_class(setup, names, lambda name: lambda event: taps.get(name, _ignore)(event))
     sessions = [robot.connection.session for robot in robots]
     pumps = [Pump(session, lambda error: print(error, file=sys.stderr)) for session in sessions]
     for pump in pumps:
@@ -151,6 +182,8 @@ def measure(count: int, folder: str) -> None:
         session.say_plan(ROUND)
     time.sleep(3.0)
     print_row(f"{count:2d} robots", listener, pids, first=0)
+    with recorded(robots, taps, Path(folder)):
+        print_row(f"{count:2d} robots, recorded", listener, pids, first=0)
     threading.Thread(target=_rehearse, args=(sessions[:2],), daemon=True).start()
     print_row(f"{count:2d} robots, while two others rehearse without end", listener, pids, first=2)
     listener.kill()

@@ -28,6 +28,7 @@ from chatrobot.recording.reader import Recording, read
 from chatrobot.recording.recorder import MOST_WAITING, Recorder
 from chatrobot.recording.redactor import Redactor
 from chatrobot.recording.shelf import make_folder, new_path, tidy
+from chatrobot.recording.thinning import Thinning
 from chatrobot.recording.topics import CMD_VEL, ODOM
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world, world_names
@@ -254,3 +255,20 @@ def test_odometry_keeps_its_order_on_simulated_time(recorded: tuple[Path, list[d
         ]
     assert stamps == sorted(stamps)
     assert stamps[0] == pytest.approx(time.time(), abs=600.0)
+
+
+def test_one_of_many_is_recorded_less_often_and_never_without_its_stop() -> None:
+    thinning = Thinning()
+    kept: list[tuple[float, Odometry | TwistMessage]] = []
+    for tick in range(200):
+        now_s, speed_mps = tick * 0.02, 0.3 if tick < 103 else 0.0
+        odometry = Odometry(now_s, 0.006 * min(tick, 103), 0.0, 0.0, speed_mps, 0.0, 0.0)
+        command = TwistMessage(speed_mps, 0.0, 0.0)
+        kept += [(now_s, odometry)] if thinning.keeps(ODOM, odometry, now_s) else []
+        kept += [(now_s, command)] if thinning.keeps(CMD_VEL, command, now_s) else []
+    poses = [(now_s, said) for now_s, said in kept if isinstance(said, Odometry)]
+    assert 20 <= len([now_s for now_s, _ in poses if now_s < 2.0]) <= 21
+    assert 2 <= len([now_s for now_s, _ in poses if now_s >= 2.0]) <= 4
+    assert max(said.x_m for _, said in poses) == pytest.approx(0.618)
+    zeros = [now_s for now_s, said in kept if said == TwistMessage(0.0, 0.0, 0.0)]
+    assert zeros[0] == pytest.approx(2.06), "at once"

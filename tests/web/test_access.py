@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import socket
+from pathlib import Path
 from typing import Any
 
 import pytest
+from starlette.applications import Starlette
+from starlette.testclient import TestClient
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from chatrobot.web.access import Access, Pass, Refusal
+from chatrobot.web.class_files import recording_routes
+from chatrobot.web.class_recordings import ClassRecordings
 from chatrobot.web.limits import Guesses
 from tests.web.rig import Client, WebRig, serving, wait_until
 
@@ -288,3 +293,17 @@ def test_whoever_is_refused_writes_nothing_into_the_terminal(
     assert status_of(rig, origin="http://evil.example") == 403
     rig.server.close()
     assert [record for record in caplog.records if record.name.startswith("uvicorn")] == []
+
+
+def test_recordings_of_a_class_are_for_a_teachers_token_alone(tmp_path: Path) -> None:
+    access = Access("127.0.0.1", needs_token=True)
+    tokens = {role: access.issue(role, "1" * (role == "pupil")) for role in ("watcher", "pupil", "steerer")}
+    tokens["teacher"] = access.issue("teacher")
+    routes = recording_routes(access, ClassRecordings(tmp_path, tuple))
+    with TestClient(Starlette(routes=routes)) as http:
+        asked = (("GET", "", 200), ("DELETE", "", 200), ("GET", "/a.mcap", 404), ("DELETE", "/a.mcap", 404))
+        for method, where, found in asked:
+            for role, token in tokens.items():
+                bearer = {"Authorization": f"Bearer {token}"}
+                answer = http.request(method, f"/recordings{where}", headers=bearer)
+                assert answer.status_code == (found if role == "teacher" else 403), (role, method, where)

@@ -3,122 +3,28 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import itertools
-import os
-import re
-import signal
-import subprocess
-import sys
+import stat
 import threading
 import time
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator
 
 import httpx
 import pytest
+from mcap.reader import make_reader
 from playwright.sync_api import Browser, expect
 from websockets.exceptions import InvalidStatus
-from websockets.sync.client import connect
 
+from chatrobot.cli.entry import main
 from chatrobot.programs.library import KeptProgram, Library
-from chatrobot.wire.local import LocalWire
-from chatrobot.wire.messages import TwistMessage
-from tests.cli.running import Command
-from tests.processes import PATIENCE_S, Heard, TalkingProcess
+from tests.processes import Heard
 from tests.web.browser import browser, find_violations, open_page
-from tests.web.rig import Client
+from tests.web.class_rig import RunningClass, robots_where
+from tests.web.rig import Client, wait_until
 
 __all__ = ["browser"]
 pytestmark = pytest.mark.realtime
-PUPILS = 3
-
-
-class RunningClass(TalkingProcess):
-    """`chatrobot web --class 3`, and those who open its pages."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self._opened, self._dialled = contextlib.ExitStack(), contextlib.ExitStack()
-        environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "PYTHONUNBUFFERED": "1"}
-        command = [
-            sys.executable,
-            "-m",
-            "chatrobot",
-            "web",
-            "--class",
-            str(PUPILS),
-            "--no-open",
-            "--port",
-            "0",
-        ]
-        command += ["--world", "empty", "--config-dir", str(folder / "config")]
-        super().__init__(command, environment, stderr=subprocess.STDOUT)
-        line = self.wait_for_line("http://")
-        found = re.search(r"http://[\w.]+:(\d+)/teacher#(\S+)", line)
-        assert found is not None, line
-        self.port, self.token = int(found[1]), found[2]
-        self.heard = []
-        paths = [*(folder / "chatrobot").glob("sim-*.wire")]
-        assert len(paths) == PUPILS
-        for path in sorted(paths):
-            wire, ear = LocalWire(path), Heard()
-            wire.subscribe("cmd_vel", TwistMessage, ear)
-            self._opened.callback(wire.close)
-            self.heard.append(ear)
-
-    @property
-    def origin(self) -> str:
-        return f"http://127.0.0.1:{self.port}"
-
-    def dial(self, path: str, token: str, port: int = 0) -> Client:
-        headers = {"Authorization": f"Bearer {token}"}
-        how: dict[str, Any] = {
-            "additional_headers": headers,
-            "proxy": None,
-            "max_size": 2**22,
-            "close_timeout": 0.5,
-        }
-        address = f"ws://127.0.0.1:{port or self.port}{path}"
-        return Client(self._dialled.enter_context(connect(address, origin=self.origin, **how)))
-
-    def teacher(self) -> Client:
-        page = self.dial("/class", self.token)
-        page.wait_for("hello")
-        return page
-
-    def pupils_tokens(self) -> list[str]:
-        robots = self.teacher().wait_for("class")["robots"]
-        return [robot["link"].partition("#")[2] for robot in robots]
-
-    def pupil(self, place: int) -> Client:
-        page = self.dial("/ws", self.pupils_tokens()[place])
-        page.wait_for("hello", role="pupil", room=str(place + 1))
-        page.say("take")
-        page.wait_for("steering", you=True)
-        page.hold()
-        return page
-
-    def hang_up(self) -> None:
-        """Leave nobody at any page, and every robot standing."""
-        self._dialled.close()
-        teacher = self.teacher()
-        robots_where(teacher, lambda robots: not any(one["pages"] or one["moving"] for one in robots))
-        teacher.socket.close()
-
-    def close(self) -> None:
-        self._dialled.close()
-        self._opened.close()
-        self.process.send_signal(signal.SIGTERM)
-        self.process.wait(PATIENCE_S)
-
-
-def robots_where(teacher: Client, holds: Callable[[list[dict[str, Any]]], bool]) -> list[dict[str, Any]]:
-    """Return what the teacher sees of the robots once that holds."""
-    ends_s = time.monotonic() + PATIENCE_S
-    while not holds(robots := teacher.wait_for("class")["robots"]):
-        assert time.monotonic() < ends_s, robots
-    return robots
 
 
 @pytest.fixture
@@ -143,6 +49,24 @@ def drive(pupils: RunningClass, *places: int) -> list[Client]:
     for place in places:
         pupils.heard[place].wait_for_motion(began_s)
     return pages
+
+
+def test_each_pupil_takes_the_lesson_and_the_teacher_moves_all_on(pupils: RunningClass) -> None:
+    """Before the others, which drive these robots elsewhere."""
+    one, teacher = pupils.pupil(2), pupils.teacher()
+    begun = [told for told in one.heard[0]["history"] if told["is"] == "lesson"]
+    assert begun[0]["head"] == "Task 1 of 4: One metre"
+    one.say("say", text="forward 70 cm")
+    assert "the goal is still 0.30 m away" in one.wait_for("verdict", state="missing")["text"]
+    one.say("say", text="another 30 cm")
+    assert one.wait_for("verdict")["text"] == "Task 1 passed: the robot stands at the goal; it drove 1.00 m."
+    robots = robots_where(teacher, lambda robots: robots[2]["lesson"]["states"][0] == "passed")
+    assert [robot["lesson"]["number"] for robot in robots] == [1, 1, 2]
+    one.say("say", text="/again")
+    one.wait_for("note", text="The task begins now.")
+    teacher.say("move_to", number=2)
+    robots = robots_where(teacher, lambda robots: robots[0]["lesson"]["number"] == 2)
+    assert [robot["lesson"]["states"][0] for robot in robots] == ["skipped", "skipped", "passed"]
 
 
 def test_each_pupil_drives_a_robot_of_their_own_and_the_teacher_sees_which(pupils: RunningClass) -> None:
@@ -225,6 +149,8 @@ def test_only_the_teacher_releases_an_emergency_stop(pupils: RunningClass) -> No
     robots_where(teacher, lambda robots: robots[0]["emergency"])
     page.say("release")
     assert page.wait_for("refused")["do"] == "release"
+    page.say("say", text="解除急停")
+    assert "Only your teacher" in page.wait_for("note")["text"]
     page.say("say", text="forward 10 cm")
     assert page.wait_for_event("result")["event"]["outcome"] == "refused"
     teacher.say("release", room="1")
@@ -240,6 +166,39 @@ def test_a_task_reaches_every_pupil_and_who_comes_later(pupils: RunningClass) ->
     later = pupils.dial("/ws", pupils.pupils_tokens()[2])
     history = later.wait_for("hello")["history"]
     assert [one["text"] for one in history if one["is"] == "task"] == ["Drive a <b>square</b>."]
+
+
+def test_the_teacher_alone_fetches_and_deletes_what_is_recorded(pupils: RunningClass) -> None:
+    page = pupils.pupil(1)
+    page.say("say", text="forward 10 cm")
+    page.wait_for_event("result")
+    http = pupils.http(pupils.token)
+    files = http.get("/recordings").json()["files"]
+    assert [file["pupil"] for file in files] == ["1", "2", "3"]
+    name = files[1]["name"]
+    assert any(name in told.get("text", "") for told in page.heard[0]["history"]), "the pupil is told"
+    path = pupils.folder / "config" / "recordings" / name
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600
+    wait_until(lambda: b"forward 10 cm" in _words(http.get(f"/recordings/{name}").content))
+    assert "<html" in http.get(f"/recordings/{name.replace('mcap', 'html')}").text
+    for stranger, status in ((pupils.http(pupils.pupils_tokens()[1]), 403), (pupils.http("guessed"), 401)):
+        for method, where in (("GET", ""), ("GET", f"/{name}"), ("DELETE", f"/{name}"), ("DELETE", "")):
+            assert stranger.request(method, f"/recordings{where}").status_code == status
+    for elsewhere in ("..%2f..%2fhistory", "%2e%2e", "other.mcap", f"..%2frecordings%2f{name}"):
+        for method in ("GET", "DELETE"):
+            assert http.request(method, f"/recordings/{elsewhere}").status_code in (404, 405)
+    foreign = {"Origin": "http://elsewhere.example"}
+    assert http.delete(f"/recordings/{name}", headers=foreign).status_code == 403
+    assert path.exists()
+    assert http.delete(f"/recordings/{name}").json()["unrecorded"] == ["2"]
+    assert not path.exists()
+    assert "not recorded any more" in page.wait_for("note")["text"]
+
+
+def _words(bag: bytes) -> bytes:
+    """What was said, of a recording that has its index."""
+    messages = make_reader(io.BytesIO(bag)).iter_messages(topics=["/user_input"])
+    return b"".join(message.data for _, _, message in messages)
 
 
 def test_a_pupils_link_is_for_one_robot_and_not_for_the_class(pupils: RunningClass) -> None:
@@ -258,6 +217,9 @@ def test_a_pupil_who_opens_the_teachers_page_is_told_that_it_is_not_theirs(
 ) -> None:
     page = open_page(browser, f"{pupils.origin}/#{pupils.pupils_tokens()[1]}")
     expect(page.locator("#robot-title")).to_contain_text("Pupil 2 · ")
+    page.get_by_role("button", name="Hint").click()
+    expect(page.locator("#turns .line").last).to_contain_text("Hint: ")
+    assert find_violations(page) == []
     page.goto(f"{pupils.origin}/teacher")
     expect(page.locator("#connection-banner")).to_contain_text("This page may not come in")
     expect(page.locator("#robots li")).to_have_count(0)
@@ -318,6 +280,9 @@ def test_axe_finds_nothing_on_the_teachers_page(
 ) -> None:
     page = browser.new_page(color_scheme="dark" if dark else "light", locale="en-GB")
     page.goto(f"{pupils.origin}/teacher#{pupils.token}")
+    page.get_by_text("Recordings of this class").click()
+    page.get_by_role("button", name="Delete: Pupil 1").click()
+    expect(page.get_by_role("button", name="Really delete?: Pupil 1")).to_be_visible()
     page.get_by_role("button", name="New link: Pupil 2").click()
     expect(page.get_by_role("button", name="End the old link?: Pupil 2")).to_be_visible()
     page.get_by_label("Task for everybody").fill("Drive a square.")
@@ -338,8 +303,18 @@ def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: R
     teacher.socket.close()
 
 
-def test_a_class_has_simulated_robots_alone_and_a_number_that_can_be(chatrobot: Command) -> None:
-    for arguments in (("--class", "3", "--on", "dds"), ("--class", "1"), ("--class", "31")):
-        done = chatrobot("web", *arguments)
-        assert done.code == 2, done.err
-        assert "--class" in done.err
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        (("--class", "3", "--on", "dds"), "--class"),
+        (("--class", "31"), "--class"),
+        (("--class", "3", "--record", "a.mcap"), "--record"),
+        (("--class", "3", "--lesson", "first-move"), "did you mean first-moves?"),
+        (("--lesson", "first-moves", "--world", "home"), "--world"),
+    ],
+)
+def test_what_no_class_and_no_lesson_can_be_is_refused(
+    arguments: tuple[str, ...], problem: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["web", *arguments]) == 2
+    assert problem in capsys.readouterr().err

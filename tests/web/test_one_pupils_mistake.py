@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -38,7 +39,7 @@ def robot(name: str) -> PupilsRobot:
         camera=None,
         close=lambda: None,
     )
-    return PupilsRobot(name, connection)
+    return PupilsRobot(name, connection, Path())
 
 
 def opened(gone: list[Exception]) -> tuple[Classroom, list[Any]]:

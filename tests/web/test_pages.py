@@ -124,6 +124,21 @@ def test_codes_come_with_a_sentence_in_the_language_of_the_page(rig: WebRig) -> 
     assert "1.00" in page.wait_for_event("limited")["text"]
 
 
+@pytest.mark.parametrize("text", ["please release the emergency stop", "解除急停"])
+def test_a_release_is_typed_where_its_button_is_and_is_no_sentence_for_the_robot(
+    rig: WebRig, text: str
+) -> None:
+    page = rig.page()
+    page.say("emergency_stop")
+    page.wait_for("emergency", set=True)
+    page.say("say", text=text)
+    assert page.wait_for("said")["text"] == text
+    rig.session.wait_for("release")
+    rig.tell(Notice(0, Reason("released", {"source": "console"})))
+    page.wait_for("emergency", set=False)
+    assert "say" not in [noted[0] for noted in rig.session.log]
+
+
 def test_a_browser_says_its_language(rig: WebRig) -> None:
     page = rig.page(additional_headers={"Accept-Language": "zh-CN,zh;q=0.9"})
     page.say("say", text="x" * 10, other=1)

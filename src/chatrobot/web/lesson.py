@@ -22,6 +22,7 @@ from chatrobot.lessons.words import (
 )
 from chatrobot.web.outbox import Face, Message
 from chatrobot.web.room import Room
+from chatrobot.web.words import noted
 from chatrobot.wire.messages import Odometry
 
 COMMANDS = ("/task", "/hint", "/again", "/skip")
@@ -139,6 +140,7 @@ class RoomLesson:
         while self.run.task is not None and self.run.number < number:
             self.run.skip()
         if self.run.number != was:
+            self._room.tell_people(noted("teacher_moved", number=number))
             self._show()
 
     def _tell(self, text: Callable[[str], str]) -> None:

@@ -41,8 +41,8 @@ function deleteAfterAsking(name) {
   draw();
 }
 
-function megabytes(bytes) {
-  return (bytes / 1e6).toFixed(1);
+function sizeOf(bytes) {
+  return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }
 
 /** Fetch a file and have the browser save it; a report takes a moment to be made, and its maker may say why not. */
@@ -67,7 +67,7 @@ async function save(name, link) {
 
 function rowOf(file) {
   const pupil = t("pupil", { name: file.pupil });
-  const values = { name: pupil, time: file.name.slice(11, 19).replaceAll("-", ":"), size: megabytes(file.size_bytes) };
+  const values = { name: pupil, time: file.name.slice(11, 19).replaceAll("-", ":"), size: sizeOf(file.size_bytes) };
   const button = (word, act) => {
     const made = makeButton(t(word), "small", () => act(made));
     made.setAttribute("aria-label", `${t(word)}: ${pupil}, ${values.time}`);
@@ -86,7 +86,7 @@ function draw() {
   if (!known) return;
   panel.hidden = false;
   const { files, unrecorded, folder } = known;
-  const size = megabytes(files.reduce((sum, file) => sum + file.size_bytes, 0));
+  const size = sizeOf(files.reduce((sum, file) => sum + file.size_bytes, 0));
   setText(byId("recordings-head"), t("recordings_title", { count: files.length, size }));
   const missing = unrecorded.length ? t("recordings_unrecorded", { names: unrecorded.join(", ") }) : "";
   setText(byId("recordings-about"), `${t("recordings_about", { folder })} ${missing}`);
