@@ -28,9 +28,9 @@ from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session
 from chatrobot.programs.library import KeptProgram
 from chatrobot.recording.shelf import make_folder
+from chatrobot.sim.robot import TRUTH_TOPIC
 from chatrobot.web.class_recordings import ClassRecordings
-from chatrobot.web.pupils import PupilsRobot, connect_class
-from chatrobot.web.robot_wires import RobotWires
+from chatrobot.web.pupils import PupilsRobot, RobotWires, connect_class
 from chatrobot.web.room import Room
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
@@ -122,7 +122,7 @@ def recorded(
     robots: Sequence[PupilsRobot], taps: dict[str, Callable[[Event], None]], folder: Path
 ) -> Iterator[None]:
     """Record the class meanwhile, and say how much that was."""
-    wires = RobotWires({robot.name: robot.wire_path for robot in robots})
+    wires = RobotWires(robots, TRUTH_TOPIC)
     recordings = ClassRecordings(make_folder(folder), tuple)
     recordings.open([(robot, Room(robot.name)) for robot in robots], wires)
     taps.update({robot.name: partial(recordings.hear, robot.name) for robot in robots})

@@ -25,10 +25,9 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.recording.about import about_of, world_of
 from chatrobot.recording.playback import shown
 from chatrobot.recording.reader import Recording, read
-from chatrobot.recording.recorder import MOST_WAITING, Recorder
+from chatrobot.recording.recorder import MOST_WAITING, Recorder, Thinning
 from chatrobot.recording.redactor import Redactor
 from chatrobot.recording.shelf import make_folder, new_path, tidy
-from chatrobot.recording.thinning import Thinning
 from chatrobot.recording.topics import CMD_VEL, ODOM
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world, world_names

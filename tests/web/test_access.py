@@ -12,8 +12,7 @@ from starlette.testclient import TestClient
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from chatrobot.web.access import Access, Pass, Refusal
-from chatrobot.web.class_files import recording_routes
-from chatrobot.web.class_recordings import ClassRecordings
+from chatrobot.web.class_recordings import ClassRecordings, recording_routes
 from chatrobot.web.limits import Guesses
 from tests.web.rig import Client, WebRig, serving, wait_until
 

@@ -9,6 +9,7 @@ import re
 import socket
 import sys
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -25,6 +26,7 @@ from chatrobot.core.events import Event, Notice, TruePose
 from chatrobot.dialogue.pump import Pump
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
+from chatrobot.sim.robot import TRUTH_TOPIC
 
 if TYPE_CHECKING:
     from chatrobot.lessons.sheet import Sheet
@@ -111,13 +113,11 @@ def _serve(
     lesson: RoomLesson | None,
 ) -> int:
     connection = meet(replace(setup, trace=lesson is not None), lambda event: _hear(room, lesson, event))
-    ended = threading.Event()
     problems: list[Exception] = []
 
     def lose(error: Exception) -> None:
         room.lose(error)
         problems.append(error)
-        ended.set()
 
     agents: AgentHost | None = None
     pump = Pump(connection.session, lose)
@@ -130,8 +130,8 @@ def _serve(
             tell()
             pump.start()
             agents = _host_agents(connection, server.access, setup, room)
-            while not (watch.is_leaving or ended.wait(0.1)):
-                pass
+            while not (watch.is_leaving or problems):
+                time.sleep(0.1)
             server.close()
     finally:
         if agents is not None:
@@ -161,23 +161,22 @@ def _hear(room: Room, lesson: RoomLesson | None, event: Event) -> None:
 def _serve_class(
     setup: Setup, classroom: Classroom, server: WebServer, sockets: Sockets, tell: Callable[[], None]
 ) -> int:
-    from chatrobot.web.pupils import connect_class
+    from chatrobot.web.pupils import RobotWires, connect_class
 
     robots = connect_class(setup, list(classroom.rooms), lambda name: classroom.seats[name].hear)
-    ended = threading.Event()
     problems: list[Exception] = []
 
     def lose(error: Exception) -> None:
         problems.append(error)
-        ended.set()
 
-    classroom.open(robots, lose)
+    is_heard = classroom.sheet is not None or classroom.recordings is not None
+    classroom.open(robots, lose, RobotWires(robots, TRUTH_TOPIC) if is_heard else None)
     try:
         with SignalWatch(classroom.stop) as watch:
             server.start(*sockets)
             tell()
-            while not (watch.is_leaving or ended.wait(0.1)):
-                pass
+            while not (watch.is_leaving or problems):
+                time.sleep(0.1)
             server.close()
     finally:
         classroom.close()

@@ -18,10 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 from chatrobot.core.clock import Clock, RealClock
 from chatrobot.core.event import strict_json
-from chatrobot.core.events import Event, Interpreted, Notice
+from chatrobot.core.events import Event, Interpreted, Notice, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.recording.redactor import Redactor
-from chatrobot.recording.thinning import Thinning
 from chatrobot.recording.topics import (
     CHATGPT_NODE,
     CMD_VEL,
@@ -32,7 +31,7 @@ from chatrobot.recording.topics import (
     USER_INPUT,
     Topic,
 )
-from chatrobot.wire.messages import Message, Text
+from chatrobot.wire.messages import Message, Odometry, Text, TwistMessage
 from chatrobot.wire.ros_messages import stamped
 from chatrobot.wire.wire import Wire
 
@@ -48,6 +47,12 @@ LOOK_OF_MANY_S = 0.5
 """Where many are recorded: each waking takes the interpreter from all the others."""
 LOAD_AFTER_S = 0.3
 """The libraries are loaded this long after the start: a prompt is drawn, and a first key echoed, before."""
+CHANGING_S, SAME_S = 0.1, 1.0
+"""What changes is recorded so often, what stays the same so often."""
+_EARLY_S = 0.01
+"""Messages 20 ms apart come a little early or late."""
+_DIGITS = 3
+"""A millimetre, or a thousandth of a radian, is no change."""
 _NEVER_HEARD = frozenset({"pose", "scan"})
 """Truth and scans come from the wire, whether or not somebody watches them."""
 
@@ -220,3 +225,42 @@ class Recorder:
         self.is_over = True
         self._queue.clear()
         self._notices.append(Notice(0, Reason(code, {"path": str(self.path), **values})))
+
+
+class Thinning:
+    """Leaves out what one robot of many says again and again; each topic comes from one thread.
+
+    What changes is kept ten times a second, what does not once a second; a velocity that begins or ends a motion, and
+    every event but telemetry, always.
+    """
+
+    def __init__(self) -> None:
+        self._kept: dict[str, tuple[float, tuple[Any, ...]]] = {}
+
+    def keeps(self, topic: Topic, message: Message | Event, now_s: float) -> bool:
+        """Tell whether that message is to be recorded."""
+        says = _says(message)
+        if says is None:
+            return True
+        kept_s, said = self._kept.get(topic.name, (-math.inf, ()))
+        wait_s = CHANGING_S if says != said else SAME_S
+        turns = isinstance(message, TwistMessage) and any(says) != any(said)
+        if not turns and now_s - kept_s < wait_s - _EARLY_S:
+            return False
+        self._kept[topic.name] = (now_s, says)
+        return True
+
+
+def _says(message: Message | Event) -> tuple[Any, ...] | None:
+    """What it says, apart from when; None where each is recorded."""
+    if isinstance(message, Odometry):
+        return _rounded(message[1:])
+    if isinstance(message, TwistMessage):
+        return _rounded(message)
+    if isinstance(message, Telemetry):
+        return (*_rounded(message.pose), message.moving)
+    return None
+
+
+def _rounded(values: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(round(value, _DIGITS) for value in values)

@@ -1,22 +1,30 @@
-"""Mends a recording whose writer was killed: what reached the disk is written anew, with index and summary."""
+"""Mends a recording whose writer was killed: what reached the disk is written anew, with index and summary.
+
+For a server that has others to serve there are copies and reports, made by a process of its own at lower priority.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import os
+import shutil
 import struct
+import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from chatrobot.core.errors import InputError
+from chatrobot.core.errors import ChatRobotError, InputError
 
 MAGIC = b"\x89MCAP0\r\n"
 LIBRARY = "chatrobot "
 """How a file begins to say who wrote it, where we did; our version follows."""
 _FOOTER_BYTES = 9 + 20
+NICENESS, LONGEST_S = 10, 120.0
+"""Of what is made for a server, and how long that may take."""
 _LARGEST_RECORD_BYTES = 1 << 28
 """A length beyond it is no length: the file ends within it."""
 
@@ -38,7 +46,7 @@ def is_whole(path: Path) -> bool:
     return end.endswith(MAGIC) and end[0] == 2 and int.from_bytes(end[1:9], "little") == _FOOTER_BYTES - 9
 
 
-@contextmanager
+@contextlib.contextmanager
 def held(path: Path) -> Iterator[bool]:
     """Within it nobody else writes or mends that file; false where somebody does.
 
@@ -136,6 +144,67 @@ def _records(file: BinaryIO) -> Iterator[Any]:
         if isinstance(record, DataEnd):
             return
         yield record
+
+
+def read_whole(path: Path, is_written: bool, _: str = "") -> bytes:
+    """Return a recording with its end; of one that is being written as much as has come by now.
+
+    Raises:
+        ChatRobotError: that cannot be made.
+        OSError: it cannot be read.
+    """
+    if not is_written:
+        return path.read_bytes()
+    with _copied(path) as copy:
+        _run("chatrobot.recording.repair", str(copy))
+        return copy.read_bytes()
+
+
+def report_on(path: Path, _: bool, language: str) -> bytes:
+    """Return the page of `chatrobot report`.
+
+    Raises:
+        ChatRobotError: it cannot be made.
+        OSError: the recording cannot be read.
+    """
+    with _copied(path) as copy:
+        made = copy.with_suffix(".html")
+        _run("chatrobot", "report", str(copy), "--html", str(made), "--language", language)
+        return made.read_bytes()
+
+
+@contextlib.contextmanager
+def _copied(path: Path) -> Iterator[Path]:
+    """Give a copy that nobody writes, in a folder that only its owner can look into."""
+    with tempfile.TemporaryDirectory(prefix="chatrobot-") as folder:
+        copy = Path(folder) / path.name
+        shutil.copyfile(path, copy)
+        yield copy
+
+
+def _run(module: str, *arguments: str) -> None:
+    """Run a module of ours and wait for it.
+
+    Raises:
+        ChatRobotError: it failed; with its last words.
+    """
+    process = subprocess.Popen(
+        [sys.executable, "-m", module, *arguments],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    with contextlib.suppress(OSError):  # it has ended already
+        os.setpriority(os.PRIO_PROCESS, process.pid, NICENESS)
+    try:
+        _, said = process.communicate(timeout=LONGEST_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        raise ChatRobotError(f"not done after {LONGEST_S:.0f} s") from None
+    if process.returncode != 0:
+        raise ChatRobotError((said.strip().splitlines() or [f"exit code {process.returncode}"])[-1])
 
 
 if __name__ == "__main__":  # in a process of its own, so that nobody waits for the interpreter meanwhile

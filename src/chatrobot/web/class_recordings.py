@@ -2,36 +2,51 @@
 
 Each is written as any recording is, by a thread of its own, but with less in it: no scans, and what changes ten times a
 second (decision 56). A recording that is deleted ends, and that pupil is not recorded until the teacher says so.
+
+Only a teacher's token fetches and deletes them. A name is looked up among the recordings of this class, and never
+becomes a path.
 """
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import os
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Awaitable, Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
+from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason
 from chatrobot.recording.about import about_of
 from chatrobot.recording.recorder import Recorder
 from chatrobot.recording.redactor import Redactor
+from chatrobot.recording.repair import read_whole, report_on
 from chatrobot.recording.shelf import MOST_BYTES, make_room, new_path
 from chatrobot.recording.topics import CMD_VEL, GROUND_TRUTH, ODOM, Topic
-from chatrobot.sim.robot import TRUTH_TOPIC
+from chatrobot.web.access import Access, Refusal
 from chatrobot.web.outbox import Message
-from chatrobot.web.pupils import PupilsRobot
-from chatrobot.web.robot_wires import RobotWires
+from chatrobot.web.pupils import PupilsRobot, RobotWires
 from chatrobot.web.room import Room
-from chatrobot.web.words import noted
+from chatrobot.web.words import noted, web_words
 from chatrobot.wire.messages import Message as WireMessage
 
 CLASS_BYTES = MOST_BYTES // 2
 """What the recordings of a class take at most, all together: the rest is left to those that are there."""
+PATH = "/recordings"
+UNKEPT = {"Cache-Control": "no-store"}
+REPORT = ".html"
+_TYPES = {REPORT: "text/html; charset=utf-8", ".mcap": "application/octet-stream"}
+Serve = Callable[[Request], Awaitable[Response]]
 
 
 @dataclass(frozen=True)
@@ -52,7 +67,11 @@ class _Pupil:
         """Take in what is told to that robot and what it says, but for its scans."""
         wiring, session = self.robot.connection.profile.wiring, self.robot.connection.session
         told_before = session.on_said
-        names = ((CMD_VEL, wiring.cmd_vel_topic), (ODOM, wiring.odom_topic), (GROUND_TRUTH, TRUTH_TOPIC))
+        names = (
+            (CMD_VEL, wiring.cmd_vel_topic),
+            (ODOM, wiring.odom_topic),
+            (GROUND_TRUTH, wires.truth_topic),
+        )
         for topic, name in names:
             if name:
                 wires.subscribe(self.robot.name, name, topic.kind, self._taker(topic))
@@ -214,3 +233,83 @@ def _spoken(notice: Notice) -> Message:
     values = {**reason.values, "path": Path(str(reason.values.get("path", ""))).name}
     told = Reason(reason.code, values)
     return Message(lambda language: {"is": "note", "text": render_reason(told, language)})
+
+
+def recording_routes(access: Access, recordings: ClassRecordings | None) -> list[Route]:
+    """Return the routes; none where nothing is recorded."""
+    if recordings is None:
+        return []
+    files = _Files(recordings)
+    return [
+        Route(PATH, _for_teachers(access, files.list_all), methods=["GET"]),
+        Route(PATH, _for_teachers(access, files.delete_all), methods=["DELETE"]),
+        Route(f"{PATH}/{{name}}", _for_teachers(access, files.fetch), methods=["GET"]),
+        Route(f"{PATH}/{{name}}", _for_teachers(access, files.delete), methods=["DELETE"]),
+    ]
+
+
+def _for_teachers(access: Access, serve: Serve) -> Serve:
+    async def serve_teacher(request: Request) -> Response:
+        admitted = access.admit(request.scope)
+        if isinstance(admitted, Refusal):
+            return _refuse(admitted.status, admitted.text)
+        if admitted.role != "teacher":
+            return _refuse(403, "recordings are the teacher's: open the link that the server printed")
+        return await serve(request)
+
+    return serve_teacher
+
+
+class _Files:
+    """Belongs to the event loop; whatever waits for a disk or a process is done in another thread."""
+
+    def __init__(self, recordings: ClassRecordings) -> None:
+        self._recordings = recordings
+        self._turn = asyncio.Lock()
+
+    async def list_all(self, _: Request) -> Response:
+        return JSONResponse(await asyncio.to_thread(self._recordings.facts), headers=UNKEPT)
+
+    async def delete_all(self, request: Request) -> Response:
+        return await self._done(request, self._recordings.delete_all)
+
+    async def delete(self, request: Request) -> Response:
+        name = request.path_params["name"]
+        if self._recordings.find(name) is None:
+            return _no_such_file()
+        return await self._done(request, lambda: self._recordings.delete(name))
+
+    async def _done(self, request: Request, act: Callable[[], object]) -> Response:
+        try:
+            await asyncio.to_thread(act)
+        except OSError as error:
+            return _refuse(500, error.strerror or str(error))
+        return await self.list_all(request)
+
+    async def fetch(self, request: Request) -> Response:
+        name = Path(request.path_params["name"])
+        found = self._recordings.find(name.with_suffix(".mcap").name)
+        if found is None or name.suffix not in _TYPES:
+            return _no_such_file()
+        path, is_written = found
+        language: LanguageCode = "zh" if request.query_params.get("language") == "zh" else "en"
+        try:
+            async with self._turn:
+                body = await asyncio.to_thread(
+                    report_on if name.suffix == REPORT else read_whole, path, is_written, language
+                )
+        except ChatRobotError as error:
+            return _refuse(500, web_words(language, "file_failed", problem=str(error)))
+        except OSError as error:
+            problem = error.strerror or str(error)
+            return _refuse(500, web_words(language, "file_failed", problem=problem))
+        attached = f'attachment; filename="{name.name}"'
+        return Response(body, 200, {**UNKEPT, "Content-Disposition": attached}, _TYPES[name.suffix])
+
+
+def _no_such_file() -> Response:
+    return _refuse(404, "this class has no such recording")
+
+
+def _refuse(status: int, text: str) -> Response:
+    return JSONResponse({"text": text}, status, headers=UNKEPT)

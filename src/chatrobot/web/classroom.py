@@ -19,15 +19,13 @@ from chatrobot.dialogue.pump import Pump
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.lessons.run import LessonRun
 from chatrobot.lessons.sheet import Sheet
-from chatrobot.sim.robot import TRUTH_TOPIC
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Access
 from chatrobot.web.class_recordings import ClassRecordings
 from chatrobot.web.connection import Conversation, Page
 from chatrobot.web.lesson import RoomLesson
 from chatrobot.web.outbox import Face, Message
 from chatrobot.web.protocol import MOST_TEXT_CHARS, Fields, is_text
-from chatrobot.web.pupils import PupilsRobot
-from chatrobot.web.robot_wires import RobotWires
+from chatrobot.web.pupils import PupilsRobot, RobotWires
 from chatrobot.web.room import Room
 from chatrobot.web.words import refused, told, web_words
 from chatrobot.wire.messages import Odometry
@@ -118,10 +116,16 @@ class Classroom:
         self._pumps: list[Pump] = []
         self._ended = threading.Event()
 
-    def open(self, robots: Sequence[PupilsRobot], on_gone: Callable[[Exception], None]) -> None:
+    def open(
+        self,
+        robots: Sequence[PupilsRobot],
+        on_gone: Callable[[Exception], None],
+        wires: RobotWires | None = None,
+    ) -> None:
         """Let pupils in, each to their own robot, and begin to pump its session.
 
         Args:
+            wires: what lesson and recordings hear the robots by; closed with the class.
             on_gone: told why a robot is gone, and with it all of them, for they share their processes. What goes wrong
                 in one pupil's conversation ends that one alone.
         """
@@ -131,15 +135,15 @@ class Classroom:
             pump = Pump(robot.connection.session, partial(_lose, room, robot, on_gone))
             room.open(robot.connection, pump.post, is_simulated=True, release=robot.release)
             self._pumps.append(pump)
-        if self.sheet is not None or self.recordings is not None:
-            self._wires = self._listen(robots)
+        if wires is not None:
+            self._wires = wires
+            self._listen(robots, wires)
         for pump in self._pumps:
             pump.start()
         threading.Thread(target=self._tell_all, name="class", daemon=True).start()
 
-    def _listen(self, robots: Sequence[PupilsRobot]) -> RobotWires:
+    def _listen(self, robots: Sequence[PupilsRobot], wires: RobotWires) -> None:
         """Have what the robots do recorded, and judged by the lesson."""
-        wires = RobotWires({robot.name: robot.wire_path for robot in robots})
         if self.recordings is not None:
             for robot in robots:
                 self.seats[robot.name].record = partial(self.recordings.hear, robot.name)
@@ -148,13 +152,12 @@ class Classroom:
             for robot in robots:
                 self._begin_lesson(self.sheet, robot, wires)
         wires.start()
-        return wires
 
     def _begin_lesson(self, sheet: Sheet, robot: PupilsRobot, wires: RobotWires) -> None:
         profile, name = robot.connection.profile, robot.name
         run, up_to_date = LessonRun(sheet, profile.footprint), partial(wires.bring_up_to_date, name)
         lesson = RoomLesson(run, self.rooms[name], profile.title, up_to_date)
-        wires.subscribe(name, TRUTH_TOPIC, Odometry, lesson.hear_truth)
+        wires.subscribe(name, wires.truth_topic, Odometry, lesson.hear_truth)
         lesson.open(robot.connection.session)
         self.seats[name].lesson = lesson
 

@@ -1,17 +1,32 @@
-"""The robot and its world, as a page draws them."""
+"""The robot and its world, as a page draws them; and what its camera sees, for pages that ask.
+
+Of a camera that is the newest picture, a few times a second, kept nowhere.
+"""
 
 from __future__ import annotations
 
+import base64
+import threading
+import time
 from collections.abc import Mapping
 from typing import Any
 
+from chatrobot.dialogue.llm.camera import Camera
 from chatrobot.language.context import Place
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.shapes import Circle
 from chatrobot.sim.world import Obstacle, World
+from chatrobot.web.outbox import Face
+from chatrobot.web.words import told
 
 _DIGITS = 4
 """Of a metre or radian: a tenth of a millimetre."""
+PICTURE_S = 0.3
+"""So often a picture is given at most, to however many pages."""
+IDLE_S = 2.0
+"""Where nobody has asked for so long, the camera is looked through no more."""
+FIRST_S = 3.0
+"""So long whoever asks waits for a camera that shows nothing yet."""
 
 
 def robot_facts(profile: RobotProfile, *, is_simulated: bool, has_camera: bool) -> dict[str, Any]:
@@ -77,3 +92,55 @@ def _obstacle(obstacle: Obstacle) -> dict[str, Any]:
 
 def _points(points: Any) -> list[list[float]]:
     return [[round(x_m, _DIGITS), round(y_m, _DIGITS)] for x_m, y_m in points]
+
+
+class CameraView:
+    """Looks through the camera while pages ask, in a thread of its own. `ask` from any thread."""
+
+    def __init__(self, camera: Camera) -> None:
+        self._camera = camera
+        self._lock = threading.Lock()
+        self._asking: list[Face] = []
+        self._asked_s = 0.0
+        self._is_looking = False
+
+    def ask(self, viewer: Face) -> None:
+        """Have that page told the next picture, or that there is none."""
+        with self._lock:
+            if viewer not in self._asking:
+                self._asking.append(viewer)
+            self._asked_s = time.monotonic()
+            starts, self._is_looking = not self._is_looking, True
+        if starts:
+            threading.Thread(target=self._look, name="camera view", daemon=True).start()
+
+    def _look(self) -> None:
+        self._camera.begin()
+        try:
+            while not self._is_idle():
+                if self._asking:
+                    self._show()
+                time.sleep(PICTURE_S)
+        finally:
+            self._camera.end()
+
+    def _is_idle(self) -> bool:
+        with self._lock:
+            self._is_looking = bool(self._asking) or time.monotonic() - self._asked_s < IDLE_S
+            return not self._is_looking
+
+    def _show(self) -> None:
+        ends_s = time.monotonic() + FIRST_S
+        while not self._camera.has_picture and time.monotonic() < ends_s:
+            time.sleep(0.02)
+        picture = self._camera.take() if self._camera.has_picture else None
+        with self._lock:
+            asking, self._asking = self._asking, []
+        message = told("picture", data=_as_address(picture) if picture else None)
+        for viewer in asking:
+            viewer.put(message)
+
+
+def _as_address(picture: bytes) -> str:
+    kind = "png" if picture.startswith(b"\x89PNG") else "jpeg"
+    return f"data:image/{kind};base64,{base64.b64encode(picture).decode()}"

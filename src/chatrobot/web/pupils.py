@@ -7,17 +7,24 @@ as `pupil`, which may not release an emergency stop; whoever teaches may.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 from chatrobot.compose import Connection, OnEvent, Setup, connect, default_world
-from chatrobot.core.errors import UsageError
+from chatrobot.core.errors import UsageError, WireError
 from chatrobot.link.processes import SIMULATED, Processes
 from chatrobot.link.socket_link import SocketLink
 from chatrobot.robots.load import profile_argument, profile_dirs
+from chatrobot.wire.local import LocalWire
+from chatrobot.wire.messages import Message
 
+Kind = TypeVar("Kind", bound=Message)
 FEWEST, MOST = 2, 30
+TURN_S = 0.02
+"""Of the thread that reads their wires for recordings and lessons."""
 PUPIL = "pupil"
 """The source in whose name a pupil's session speaks."""
 _TEACHER = "console"
@@ -88,3 +95,52 @@ def connect_class(
             robots.append(PupilsRobot(name, connect(own, on_event_of(name)), processes.wire_path))
         ended_early.pop_all()
     return robots
+
+
+class RobotWires:
+    """One more end of the wire of each robot, all of them read by one thread, in turns: a thread for each would have
+    the interpreter go from hand to hand at every message. Subscribe, then `start`.
+
+    Callbacks come from that thread, or from whoever calls `bring_up_to_date`.
+
+    Args:
+        truth_topic: where simulated robots tell where they truly are.
+
+    Raises:
+        WireError: nobody serves one of them.
+    """
+
+    def __init__(self, robots: Iterable[PupilsRobot], truth_topic: str) -> None:
+        self.truth_topic = truth_topic
+        self._wires = {robot.name: LocalWire(robot.wire_path, has_thread=False) for robot in robots}
+        self._locks = {name: threading.Lock() for name in self._wires}
+        self._has_ended = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="wires", daemon=True)
+
+    def subscribe(self, name: str, topic: str, kind: type[Kind], callback: Callable[[Kind], None]) -> None:
+        """Hear what that robot is told, or says, on a topic."""
+        with contextlib.suppress(WireError):  # that robot is gone, and Motion says so
+            self._wires[name].subscribe(topic, kind, callback)
+
+    def start(self) -> None:
+        """Begin to read."""
+        self._thread.start()
+
+    def bring_up_to_date(self, name: str) -> None:
+        """Have everything delivered that has come from that robot by now. From any thread that holds no lock."""
+        with self._locks[name]:
+            if not self._wires[name].is_over:
+                self._wires[name].deliver()
+
+    def close(self) -> None:
+        """Hear no more."""
+        self._has_ended.set()
+        if self._thread.ident is not None:
+            self._thread.join()
+        for wire in self._wires.values():
+            wire.close()
+
+    def _run(self) -> None:
+        while not self._has_ended.wait(TURN_S):
+            for name in self._wires:
+                self.bring_up_to_date(name)

@@ -20,11 +20,9 @@ from chatrobot.plan.steps import Go, Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_release
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON
-from chatrobot.web.asked_plans import AskedPlans
-from chatrobot.web.camera import CameraView
-from chatrobot.web.facts import place_facts, robot_facts, world_facts
+from chatrobot.web.facts import CameraView, place_facts, robot_facts, world_facts
 from chatrobot.web.outbox import Face, Message
-from chatrobot.web.programs import Post, Programs
+from chatrobot.web.programs import AskedPlans, Post, Programs
 from chatrobot.web.steering import NOBODY, Steering
 from chatrobot.web.words import PASSING, UNTOLD, event_message, noted, refused, told, web_words
 

@@ -29,7 +29,7 @@ from starlette.websockets import WebSocket
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.process import wake_promptly
 from chatrobot.web.access import Access, Pass, Refusal, address_of
-from chatrobot.web.class_files import recording_routes
+from chatrobot.web.class_recordings import recording_routes
 from chatrobot.web.classroom import Classroom, serve_teacher
 from chatrobot.web.connection import Page, serve_room
 from chatrobot.web.limits import AbortableWebSocket, LimitedProtocol, is_news
