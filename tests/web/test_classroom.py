@@ -179,6 +179,7 @@ def test_the_teacher_alone_fetches_and_deletes_what_is_recorded(pupils: RunningC
     assert any(name in told.get("text", "") for told in page.heard[0]["history"]), "the pupil is told"
     path = pupils.folder / "config" / "recordings" / name
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
+    time.sleep(0.6)  # it has been written
     wait_until(lambda: b"forward 10 cm" in _words(http.get(f"/recordings/{name}").content))
     assert "<html" in http.get(f"/recordings/{name.replace('mcap', 'html')}").text
     for stranger, status in ((pupils.http(pupils.pupils_tokens()[1]), 403), (pupils.http("guessed"), 401)):

@@ -160,7 +160,7 @@ def read_whole(path: Path, is_written: bool, _: str = "") -> bytes:
         return copy.read_bytes()
 
 
-def report_on(path: Path, _: bool, language: str) -> bytes:
+def report_on(path: Path, is_written: bool, language: str) -> bytes:
     """Return the page of `chatrobot report`.
 
     Raises:
@@ -168,6 +168,8 @@ def report_on(path: Path, _: bool, language: str) -> bytes:
         OSError: the recording cannot be read.
     """
     with _copied(path) as copy:
+        if is_written:  # it was not cut off, as the report would say
+            _run("chatrobot.recording.repair", str(copy))
         made = copy.with_suffix(".html")
         _run("chatrobot", "report", str(copy), "--html", str(made), "--language", language)
         return made.read_bytes()

@@ -13,6 +13,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.reflex import is_release
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
 from chatrobot.web.outbox import Face, Message, Outbox
@@ -174,7 +175,8 @@ def serve_room(websocket: WebSocket, room: Room, page: Page) -> Conversation:
         word = message["do"]
         if word in _BEATS:
             room.steering.beat(page)
-        why = why_not(room, page, word)
+        is_release_typed = word == "say" and page.pass_.may_steer and is_release(message["text"])
+        why = "" if is_release_typed else why_not(room, page, word)  # its button asks for no steering either
         if why:
             page.put(refused(why, word))
             return

@@ -218,6 +218,7 @@ class Room:
         return {
             "is": "hello",
             "you": face.id,
+            "language": language,
             "name": face.name,
             "role": face.pass_.role,
             "room": self.name,

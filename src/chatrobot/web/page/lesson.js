@@ -4,7 +4,7 @@ import { on, send } from "./connection.js";
 import { byId, make, makeButton, setText } from "./dom.js";
 import { onLanguage, t } from "./words.js";
 
-const COMMANDS = ["hint", "again", "skip"];
+const COMMANDS = { "lesson_hint": "/hint", "lesson_again": "/again", "lesson_skip": "/skip" };
 
 const panel = byId("lesson");
 const verdict = byId("lesson-verdict");
@@ -23,8 +23,8 @@ function showVerdict(message) {
 }
 
 function showButtons() {
-  const press = (command) => makeButton(t(`lesson_${command}`), "small", () => send({ do: "say", text: `/${command}` }));
-  byId("lesson-buttons").replaceChildren(...COMMANDS.map(press));
+  const press = ([word, text]) => makeButton(t(word), "small", () => send({ do: "say", text }));
+  byId("lesson-buttons").replaceChildren(...Object.entries(COMMANDS).map(press));
 }
 
 /** Begin: hear what there is to show. */

@@ -14,7 +14,7 @@ import { startSayBox } from "./say_box.js";
 import { startSpeech } from "./speech.js";
 import { startSteering } from "./steering.js";
 import { startStick } from "./stick.js";
-import { browserLanguage, firstLanguage, language, onLanguage, setLanguage, t } from "./words.js";
+import { firstLanguage, language, onLanguage, setLanguage, t } from "./words.js";
 
 /** On a narrow screen one panel is seen at a time, under the map. */
 function showTab(name) {
@@ -35,7 +35,7 @@ function startLanguage() {
   });
   on("open", () => {
     send({ do: "language", code: language() });
-    if (language() !== browserLanguage()) send({ do: "history" }); // what it told at first was in the browser's
+    if (language() !== state.hello.language) send({ do: "history" }); // it took the browser to speak another
   });
 }
 

@@ -17,8 +17,7 @@ export function firstLanguage() {
   return CODES.includes(chosen) ? chosen : browserLanguage();
 }
 
-/** The language that the server takes us to speak, too, until it is told. */
-export function browserLanguage() {
+function browserLanguage() {
   return navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en";
 }
 
