@@ -11,6 +11,7 @@ const verdict = byId("lesson-verdict");
 
 function show(message) {
   panel.hidden = false;
+  byId("examples").hidden = true; // the task says what to do
   setText(byId("lesson-head"), message.head);
   const lines = [...message.about.map((line) => make("p", "hint", line)), ...message.lines.map((line) => make("p", "", line))];
   byId("lesson-lines").replaceChildren(...lines);

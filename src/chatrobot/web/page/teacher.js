@@ -75,6 +75,11 @@ function label(button, text, name) {
   button.setAttribute("aria-label", `${text}: ${name}`);
 }
 
+/** Never "-0.00". */
+function metres(value) {
+  return (Math.round(100 * value) / 100 || 0).toFixed(2);
+}
+
 function stateOf(robot) {
   if (robot.gone) return "state_unknown";
   if (robot.emergency) return "state_emergency";
@@ -89,8 +94,8 @@ function drawCard(robot) {
   card.state.dataset.state = stateOf(robot);
   setText(card.who, robot.pages ? t("pages", { count: robot.pages }) : t("pages_none"));
   const [x, y, yaw] = robot.pose || [0, 0, 0];
-  const heading = Math.round((yaw * 180) / Math.PI);
-  setText(card.where, robot.pose ? t("pose", { x: x.toFixed(2), y: y.toFixed(2), heading }) : "");
+  const heading = Math.round((Math.atan2(Math.sin(yaw), Math.cos(yaw)) * 180) / Math.PI) || 0;
+  setText(card.where, robot.pose ? t("pose", { x: metres(x), y: metres(y), heading }) : "");
   drawTask(card.lesson, robot.lesson);
   setText(card.doing, robot.plan_text || robot.reply);
   card.doing.dataset.outcome = robot.plan_text ? "" : robot.outcome;
