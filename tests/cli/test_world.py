@@ -54,7 +54,7 @@ MISTAKES = {
     "x_m: 0.7, y_m: 2.0": ("x_m: 0.15, y_m: 2.0", "line 28: the place 'door' is 0.09 m from the west wall"),
     "x_m: 4.4, y_m: 3.5": ("x_m: 6.4, y_m: 3.5", "line 29: the place 'corner' lies outside allowed_area"),
     "x_m: 1.0, y_m: 1.0, yaw_deg: 0": ("x_m: 0.1, y_m: 1.0", "line 8: the start of the world 'room' lies in"),
-    "{name: corner,": ("{name: open-plan office,", "line 29: “go to the open-plan office” is not understood"),
+    "{name: corner,": ("{name: '!?',", "line 29: “go to the !?” is not understood"),
     "radius_m: 0.2}}": (
         "radius_m: 0.2}}\n  - {name: fence, wall: {from: [4, 0], to: [4, 4], thickness_m: 0.05}}",
         "there is no way from the start to the place 'corner'",

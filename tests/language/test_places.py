@@ -96,3 +96,40 @@ def test_a_place_that_is_as_near_as_another_is_not_named() -> None:
     places = {"desk1": Pose(1.0, 0.0, 0.0), "desk2": Pose(2.0, 0.0, 0.0), "docka": Pose(), "dockb": Pose()}
     meant = OfflineInterpreter(MECANUM).interpret("go to dockc", Context(world_places=places))
     assert (meant.outcome, meant.code) == ("unclear", "unknown_part")
+
+
+ROOMS = ("kitchen", "sofa", "tv", "front door", "open-plan office", "living room", "前台", "打印机")
+HERE = Context(world_places={name: Pose(1.0 + i, 0.0, 0.0) for i, name in enumerate(ROOMS)})
+
+
+@pytest.mark.parametrize(
+    ("said", "places"),
+    [
+        ("go to the tv, then to the sofa", ["tv", "sofa"]),
+        ("go to the living room, then to the kitchen", ["living room", "kitchen"]),
+        ("go to the open-plan office", ["open-plan office"]),
+        ("go to the open plan office, then to the tv", ["open-plan office", "tv"]),
+        ("drive to the front door", ["front door"]),
+        ("往前台开", ["前台"]),
+        ("从前台去打印机", ["前台", "打印机"]),
+    ],
+)
+def test_a_name_is_whole_and_each_of_them_is_driven_to(said: str, places: list[str]) -> None:
+    plan = OfflineInterpreter(MECANUM).interpret(said, HERE).plan
+    assert plan is not None
+    assert [step.place for step in plan.steps if isinstance(step, Go)] == places
+    assert len(plan.steps) == len(places)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "you went to the sofa, then to the kitchen",
+        "the kitchen is next to the living room",
+        "to the living room? no way",
+        "你刚才去了前台，然后去了打印机",
+        "你去打印机了吗？",
+    ],
+)
+def test_places_in_what_is_told_or_asked_are_not_driven_to(said: str) -> None:
+    assert OfflineInterpreter(MECANUM).interpret(said, HERE).plan is None

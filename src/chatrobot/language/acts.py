@@ -43,10 +43,13 @@ def read_acts(text: str, names: Names = ()) -> list[Read]:
     """Each clause of a normalised text with its odds."""
     weights = _weights()
     clauses = clauses_of(text, names)
-    return [
-        Read(clause, sum(weights[slot_of(name)] for name in features(clauses, i)) / SCALE)
-        for i, clause in enumerate(clauses)
-    ]
+    reads: list[Read] = []
+    for i, clause in enumerate(clauses):
+        odds = sum(weights[slot_of(name)] for name in features(clauses, i)) / SCALE
+        if i and clause.goes_on and clauses[i - 1].tells_of_before and not is_strong(clauses[i - 1].end):
+            odds = min(odds, reads[-1].log_odds)  # `you went to the sofa, then to the kitchen`
+        reads.append(Read(clause, odds))
+    return reads
 
 
 def order_log_odds(reads: Sequence[Read]) -> float:
@@ -146,7 +149,8 @@ def _told(signs: Sequence[Sign]) -> Iterator[tuple[str, str]]:
             label = "AMOUNT" if any(sign.label in _MEASURES for sign in run) else "NUMBER"
             yield label, label
         else:
-            yield from ((sign.label, sign.text) for sign in run)
+            # What a name is written like tells nothing either.
+            yield from ((sign.label, sign.label if sign.is_name else sign.text) for sign in run)
 
 
 def _around(clauses: Sequence[Clause], i: int) -> Iterator[str]:

@@ -6,7 +6,7 @@ Labels come from data (`acts.toml` of each language, and the lexicon): what they
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -25,6 +25,8 @@ _IDLE = frozenset({"VERB", "DIR", "PLACE", "COUNTER"})
 _OPENING = frozenset({"request", "please", "opening", "robot", "hence"})
 _JOINTS = frozenset({"joint", "contrast"})
 _HENCE = "hence"
+_PAST = frozenset({"did", "past"})
+_BEFORE_GOAL = frozenset({"to", "VERB"})
 """The labels of words that begin a clause of their own; the last where a word of motion follows."""
 _FIRST_IDEOGRAPH, _FEWEST = 0x2E7F, 3
 _QUOTES = frozenset('"“”「」『』')
@@ -53,13 +55,14 @@ _NO_NAMES: Names = ()
 class Sign(NamedTuple):
     """One word or phrase. `label` is its class, or the kind of motion word it is, or the word itself.
 
-    `start` is where it stands in the text.
+    `start` is where it stands in the text; `is_name`: it is a name of this dialogue.
     """
 
     label: str
     text: str
     moves: bool
     start: int
+    is_name: bool = False
 
 
 @dataclass(frozen=True)
@@ -118,6 +121,18 @@ class Clause:
         """Whether it may decide on what stands beside it: a condition, a question, a correction, a lone no."""
         bears = any(sign.label in DEPENDING for sign in self.signs) or self.signs[-1].label == "not"
         return bears or self.end == "?"
+
+    @property
+    def tells_of_before(self) -> bool:
+        """`you went to the sofa`: whether it tells what was done."""
+        return any(sign.label in _PAST for sign in self.signs)
+
+    @property
+    def goes_on(self) -> bool:
+        """`then to the kitchen`: whether it has no verb of its own, so that the one before holds for it."""
+        first, *rest = self.signs
+        begins = lexicon().words.get(tuple(first.text.split("_")), (("", ""),))[0][0] == "conn"
+        return begins and not any(sign.label == "VERB" and not sign.is_name for sign in rest)
 
     @property
     def moves(self) -> bool:
@@ -182,21 +197,42 @@ def is_strong(mark: str) -> bool:
 
 def _signs(units: list[Unit], names: Names) -> Iterator[Sign]:
     table, longest = _table()
-    named = max(map(len, names), default=0)
-    at, count = 0, len(units)
-    while at < count:
-        unit, start = units[at]
-        for length in range(min(max(longest.get(unit, 0), named), count - at), 0, -1):
-            key = tuple(written for written, _ in units[at : at + length])
-            label = ("VERB", True) if key in names else table.get(key)
-            if label is not None:
-                yield Sign(label[0], "_".join(key), label[1], start)
-                at += length
+    words = [written for written, _ in units]
+    named = dict(_named(words, names))
+    at, label = 0, ""
+    while at < len(units):
+        (unit, start), before = units[at], label
+        label, moves, end = unit, False, at + 1
+        for length in range(max(longest.get(unit, 0), named.get(at, at) - at), 0, -1):
+            found = table.get(tuple(words[at : at + length])) if at + length <= len(units) else None
+            inside = [stop for begin, stop in named.items() if at < begin < at + length]
+            if at + length == named.get(at):
+                label, moves, end = "VERB", True, at + length
+                break
+            if found is not None and all(stop <= at + length for stop in inside):
+                # `go to the kitchen, then to the sofa`; but not 往前 of 往前台开, where 前台 is a place
+                moves, end = found[1] or (bool(inside) and before in _BEFORE_GOAL), at + length
+                label = found[0]
                 break
         else:
-            number = unit[0].isdecimal() or (unit[0] == "." and len(unit) > 1)
-            yield Sign("NUMBER" if number else unit, unit, number, start)
-            at += 1
+            if unit[0].isdecimal() or (unit[0] == "." and len(unit) > 1):
+                label, moves = "NUMBER", True
+        yield Sign(label, "_".join(words[at:end]), moves, start, is_name=end == named.get(at))
+        at = end
+
+
+def _named(words: Sequence[str], names: Names) -> Iterator[tuple[int, int]]:
+    """Where each name begins and ends; of those that begin at the same word the longest. Hyphens are spaces."""
+    longest = max(map(len, names), default=0)
+    beginnings = {name[0] for name in names if name}
+    for at, word in enumerate(words):
+        if word not in beginnings:
+            continue
+        for end in range(min(at + 2 * longest - 1, len(words)), at, -1):
+            key = tuple(word for word in words[at:end] if word != "-")
+            if key in names and words[end - 1] != "-":
+                yield at, end
+                break
 
 
 @lru_cache(maxsize=1)

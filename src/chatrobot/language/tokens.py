@@ -84,6 +84,13 @@ def _cover(
     """Dynamic programming from the end: the fewest words, unknown units only where nothing else fits."""
     count = len(units)
     name_length = max((len(key) for key in names), default=0)
+    named = [
+        (at, at + len(key))
+        for key in names
+        if len(key) > 1
+        for at in range(count)
+        if units[at : at + len(key)] == key
+    ]
     best = [0.0] * (count + 1)
     choice: list[tuple[int, Meaning | None]] = [(0, None)] * count
     for start in range(count - 1, -1, -1):
@@ -95,6 +102,8 @@ def _cover(
             if end > count:
                 break
             key = units[start:end]
+            if key not in names and any(start < begin < end < stop for begin, stop in named):
+                continue  # `to the front` of `drive to the front door`, where the front door is a place
             meaning = names.get(key) or words.words.get(key)
             price = _NAMED if key in names else _WORD
             if meaning is None:
