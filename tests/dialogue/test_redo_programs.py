@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.dialogue.test_programs import House
+from tests.dialogue.program_rig import House
 
 from chatrobot.core.events import Interpreted, ProgramWritten, Rehearsed
 from chatrobot.dialogue.options import Options
