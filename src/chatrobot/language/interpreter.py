@@ -43,7 +43,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
-from chatrobot.language.starting import is_withdrawn, without_hold
+from chatrobot.language.starting import is_withdrawn, without_call_sign, without_hold
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -86,9 +86,10 @@ class OfflineInterpreter:
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
+        text = without_call_sign(normalise(text), language)
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        if offers and is_withdrawn(normalise(text), language):
+        if offers and is_withdrawn(text, language):
             return asked_back(Unclear("taken_back", text), language)
         return meant
 

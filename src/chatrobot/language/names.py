@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from chatrobot.language import forms
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import LANGUAGES, expand, load_table
 from chatrobot.language.facts import unit_length_m
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
 from chatrobot.language.normalise import has_chinese, normalise
@@ -69,6 +69,7 @@ def names_in(context: Context) -> dict[Key, Meaning]:
             names[cut(normalise(f"{word}s"))] = (("defined", word),)
     if forms.UNNAMED in dialogue.places:
         for language in LANGUAGES:
-            for written in load_table(language, "dialogue_forms")["that_place"]:
-                names[cut(written)] = (("place", forms.UNNAMED),)
+            for pattern in load_table(language, "dialogue_forms")["that_place"]:
+                for written in expand(pattern):
+                    names[cut(written)] = (("place", forms.UNNAMED),)
     return names

@@ -41,6 +41,11 @@ def _simplified() -> dict[int, str]:
     return {ord(pair[0]): pair[1] for pair in pairs}
 
 
+@lru_cache(maxsize=1)
+def _retroflex() -> re.Pattern[str]:
+    return re.compile(f"(?<=[{load_table('zh', 'traditional')['retroflex']}])儿(?![子女童])")
+
+
 def normalise(text: str) -> str:
     """Lower case, compatibility forms folded, simplified characters, no control characters, no emoji."""
     # An ellipsis must not fold into full stops, and "1½" must not fold into "11/2".
@@ -48,7 +53,7 @@ def normalise(text: str) -> str:
     text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", _CIRCLED.sub(" ; ", text.translate(_QUOTES)))
     text = unicodedata.normalize("NFKC", _ELLIPSIS.sub("…", text).replace("…", "\ue000"))
     text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
-    text = _REDOUBLED.sub(r"\1", text)
+    text = _retroflex().sub("", _REDOUBLED.sub(r"\1", text))
     kept = [c if _kept(c) else " " for c in text]
     return _SPACES.sub(" ", "".join(kept)).strip()
 

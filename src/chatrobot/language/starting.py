@@ -1,4 +1,4 @@
-"""A bare `go`, which starts what was said before; what is held back until then, and what is taken back at once."""
+"""How a text begins: the call sign of the robot, a bare `go`; and what is held back, or taken back at once."""
 
 from __future__ import annotations
 
@@ -29,6 +29,11 @@ def without_hold(plain: str, language: str) -> str:
     """A normalised text without what holds it back; an empty string where nothing does."""
     rest = _pattern(language, "held").sub("", plain)
     return rest.strip(" ,.;:!") if rest != plain else ""
+
+
+def without_call_sign(plain: str, language: str) -> str:
+    """A normalised text without the number that it calls the robot by, at its start: `unit four, go`."""
+    return _pattern(language, "call_sign").sub("", plain, count=1)
 
 
 def is_withdrawn(plain: str, language: str) -> bool:
