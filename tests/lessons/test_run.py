@@ -93,7 +93,7 @@ def test_it_begins_where_the_pupil_has_driven_to_where_it_begins() -> None:
 
 def test_hints_and_skipped_tasks_are_told_at_the_end() -> None:
     run = LessonRun(sheet_with("path_m: {at_least: 0.5}", tasks=2), FOOTPRINT)
-    assert describe_hint(run, "zh") == "提示：这样做"
+    assert describe_hint(run.hint(), "zh") == "提示：这样做"
     run.skip()
     assert drive(run, trace(forward(1.0)), turn=2).is_passed
     assert run.task is None
