@@ -185,10 +185,12 @@ class ClassRecordings:
             return {"folder": str(self.folder), "files": files, "unrecorded": unrecorded}
 
     def find(self, file_name: str) -> tuple[Path, bool] | None:
-        """Return where that recording of this class is, and whether it is being written; None where there is none."""
-        with self._lock:
-            file = self._files.get(file_name)
-            return (file.path, not file.recorder.is_over) if file is not None else None
+        """Return where that recording of this class is, and whether it is being written; None where there is none.
+
+        Waits for nothing: the event loop asks.
+        """
+        file = self._files.get(file_name)
+        return (file.path, not file.recorder.is_over) if file is not None else None
 
     def delete(self, file_name: str) -> bool:
         """Delete a recording of this class; one that is being written ends by that. False where there is none.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import sys
 import threading
@@ -311,8 +312,8 @@ def serve_teacher(websocket: WebSocket, classroom: Classroom, page: Page) -> Con
         elif word == "revoke":
             classroom.revoke(message["room"])
         elif word == "record":
-            if classroom.recordings is not None:
-                classroom.recordings.record(message["room"])
+            if classroom.recordings is not None:  # it waits for the disk
+                asyncio.get_running_loop().run_in_executor(None, classroom.recordings.record, message["room"])
         elif word == "move_to":
             classroom.move_to(message["number"])
         elif word == "task":
