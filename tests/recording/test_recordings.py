@@ -151,8 +151,8 @@ def test_a_bag_of_others_is_read_with_stamped_velocities_or_says_what_it_holds(t
             schema = writer.register_schema(twist, "ros2msg", definitions.text_of(twist).encode())
             writer.add_message(writer.register_channel(topic, "cdr", schema), 10**9, data, 10**9)
             writer.finish()
-    recording, was_mended = read_recording(str(bag))
-    assert (recording.commands, was_mended) == ([(0.0, TwistMessage(0.2, 0.0, 0.1))], False)
+    recording, amiss = read_recording(str(bag))
+    assert (recording.commands, amiss) == ([(0.0, TwistMessage(0.2, 0.0, 0.1))], "")
     with pytest.raises(UsageError, match=r"only /other \(geometry_msgs/msg/TwistStamped\)"):
         read_recording(str(tmp_path / "else.mcap"))
 

@@ -13,6 +13,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
+from chatrobot.cli.recorder import read_recording
 from chatrobot.core.errors import InputError
 from chatrobot.recording.reader import read
 from chatrobot.recording.recorder import Recorder
@@ -20,6 +21,7 @@ from chatrobot.recording.redactor import Redactor
 from chatrobot.recording.repair import is_whole, repair
 from chatrobot.recording.shelf import tidy
 from chatrobot.recording.topics import ODOM
+from chatrobot.wire.dds.definitions import RosDefinitions
 from chatrobot.wire.messages import Odometry
 
 WRITES = """
@@ -110,12 +112,16 @@ def test_what_another_program_may_still_write_is_not_touched(tmp_path: Path) -> 
     with path.open("wb") as file:
         writer = Writer(file, chunk_size=1)
         writer.start("ros2", "libmcap 1.3.0")
-        channel = writer.register_channel("/odom", "cdr", 0)
-        writer.add_message(channel, 1, b"x", 1)
+        schema = writer.register_schema(ODOM.form.type_name, "ros2msg", b"")
+        message = ODOM.form.to_ros(Odometry(0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
+        data = RosDefinitions().cdr(ODOM.form.type_name, message)
+        writer.add_message(writer.register_channel(ODOM.name, "cdr", schema), 10**9, data, 10**9)
     before = path.read_bytes()
-    with pytest.raises(InputError, match="mcap recover"):
-        repair(path)
+    assert repair(path) is None
     tidy(tmp_path)
+    recording, amiss = read_recording(str(path))
+    assert ([sample.x_m for _, sample in recording.odometry], amiss) == ([0.5], "unfinished")
+    assert recording.path == path
     assert path.read_bytes() == before
 
 

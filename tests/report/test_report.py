@@ -148,7 +148,7 @@ def test_a_report_never_overwrites_a_recording(recorded: Path, capsys: pytest.Ca
     assert recorded.read_bytes() == before
 
 
-def test_a_recording_that_is_being_written_is_left_alone(
+def test_a_recording_that_is_being_written_is_left_alone_and_shown_so_far(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "now.mcap"
@@ -156,9 +156,10 @@ def test_a_recording_that_is_being_written_is_left_alone(
         RecordingWriter(file, {}, str).flush()
         with held(path):
             before = path.read_bytes()
-            assert report(path) == 2
+            assert report(path) == 0
             assert path.read_bytes() == before
-    assert "is being recorded just now" in capsys.readouterr().err
+    assert "not at its end" in capsys.readouterr().err
+    assert "not at its end" in path.with_suffix(".html").read_text(encoding="utf-8")
 
 
 def test_an_empty_recording_and_one_without_odometry_say_so(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import tempfile
 import threading
 from collections.abc import Callable, Iterable
 from importlib.util import find_spec
@@ -51,24 +52,29 @@ def require_extra() -> None:
         raise UsageError(f"recordings are not installed: {missing[0]} is missing", allowed=EXTRA)
 
 
-def read_recording(name: str) -> tuple[Recording, bool]:
-    """Read the recording in that file, or in that folder of `ros2 bag record`; and whether it had to be mended.
+def read_recording(name: str) -> tuple[Recording, str]:
+    """Read the recording in that file, or in that folder of `ros2 bag record`.
+
+    A word of `report.toml` comes with it, which says what was amiss: `repaired`, `unfinished`, or "" for nothing.
 
     Raises:
-        InputError: there is none, it cannot be read, nothing in it can be shown, or it is not at its end yet.
+        InputError: there is none, it cannot be read, or nothing in it can be shown.
     """
     require_extra()
     from chatrobot.recording.reader import read
-    from chatrobot.recording.repair import is_whole, repair
+    from chatrobot.recording.repair import copy_whole, is_whole, repair
 
     path = Path(name).expanduser()
     try:
         if path.is_dir():
             path = _only_file(path)
         was_mended = repair(path) is not None
-        if not is_whole(path):
-            raise UsageError("is being recorded just now", where=str(path), allowed="it, once that has ended")
-        return read(path), was_mended
+        if is_whole(path):
+            return read(path), "repaired" if was_mended else ""
+        with tempfile.NamedTemporaryFile(suffix=SUFFIX) as copy:
+            with Path(copy.name).open("wb") as whole:
+                copy_whole(path, whole)
+            return read(Path(copy.name), path), "unfinished"
     except OSError as error:
         raise UsageError(error.strerror or str(error), where=str(path), allowed="an .mcap file") from error
 

@@ -16,6 +16,7 @@ from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.human import HumanPrinter
 from chatrobot.cli.json_lines import Output, json_line
 from chatrobot.cli.recorder import read_recording
+from chatrobot.cli.report.summary import words_in
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import InputError, UsageError
 from chatrobot.language.interpretation import LanguageCode
@@ -34,9 +35,9 @@ def run(args: argparse.Namespace) -> int:
     Raises:
         InputError: it is no recording.
     """
-    recording, was_mended = read_recording(args.file)
-    if was_mended:
-        print(f"{recording.path} had been cut off, and was repaired", file=sys.stderr)
+    recording, amiss = read_recording(args.file)
+    if amiss:
+        print(f"chatrobot: {words_in(_language(recording))(amiss)}", file=sys.stderr)
     if args.web:
         return _show_in_browser(args, recording)
     output = Output()
@@ -50,6 +51,10 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(screen := getattr(show, "__self__", None), _Screen):
         screen.end()
     return STOPPED if has_left else 0
+
+
+def _language(recording: Recording) -> LanguageCode:
+    return "zh" if recording.meta.get("language") == "zh" else "en"
 
 
 def _in_json(output: Output) -> Show:
@@ -68,7 +73,7 @@ class _Screen:
     def __init__(self, output: Output, recording: Recording) -> None:
         meta = recording.meta
         self._output = output
-        self._language: LanguageCode = "zh" if meta.get("language") == "zh" else "en"
+        self._language = _language(recording)
         self._printer = HumanPrinter(output, shows_pose=True)
         self._motion_view = MotionView()
         self._trail: list[tuple[float, float]] = []

@@ -55,8 +55,8 @@ class Recording:
     words: list[tuple[float, str]] = field(default_factory=list)
 
 
-def read(path: Path) -> Recording:
-    """Read the recording in a file that is whole (`repair` sees to that).
+def read(path: Path, copy_of: Path | None = None) -> Recording:
+    """Read the recording in a file that is whole (`repair` sees to that), or that is a whole copy of another.
 
     Raises:
         UsageError: it is no recording, or another's in which nothing can be shown.
@@ -64,7 +64,7 @@ def read(path: Path) -> Recording:
     """
     from mcap.reader import make_reader
 
-    recording = Recording(path)
+    recording = Recording(copy_of or path)
     with path.open("rb") as file:
         try:
             reader = make_reader(file)
@@ -73,10 +73,14 @@ def read(path: Path) -> Recording:
             is_empty = not _take_all(recording, reader.iter_messages(topics=[topic.name for topic in TOPICS]))
             there = _content(reader.get_summary()) if is_empty else ""
         except errors_of_broken_files() as error:
-            raise UsageError("is not a recording, or is broken", where=str(path), allowed=ALLOWED) from error
+            raise UsageError(
+                "is not a recording, or is broken", where=str(recording.path), allowed=ALLOWED
+            ) from error
     if is_empty and not ours:
         wanted = ", ".join(f"{topic.name} ({topic.form.type_name})" for topic in TOPICS[:3])
-        raise UsageError(f"holds nothing to show: {there}", where=str(path), allowed=f"one of {wanted} …")
+        raise UsageError(
+            f"holds nothing to show: {there}", where=str(recording.path), allowed=f"one of {wanted} …"
+        )
     return recording
 
 

@@ -15,9 +15,12 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from chatrobot.core.errors import ChatRobotError, InputError
+
+if TYPE_CHECKING:
+    from mcap.records import Header
 
 MAGIC = b"\x89MCAP0\r\n"
 LIBRARY = "chatrobot "
@@ -65,20 +68,21 @@ def held(path: Path) -> Iterator[bool]:
 def repair(path: Path) -> int | None:
     """Write a truncated file anew; how many messages it holds then. None where nothing was to be done.
 
-    A file that is being written just now is left alone.
+    A file that is being written just now is left alone, and so is one that another program began: it may be at work,
+    and holds no lock of ours.
 
     Raises:
-        InputError: it is no recording, nothing in it can be read, or another program began it.
+        InputError: it is no recording, or nothing in it can be read.
         OSError: it cannot be read, or the disk is full; then it stays as it is.
     """
     with held(path) as is_ours:
-        if not is_ours or is_whole(path):
+        if not is_ours or is_whole(path) or not _header(path).library.startswith(LIBRARY):
             return None
         beside = path.with_name(f".{path.name}.mending")
         try:
             descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o600)
-            with os.fdopen(descriptor, "wb") as mended, path.open("rb") as broken:
-                count = _copy(broken, mended, str(path))
+            with os.fdopen(descriptor, "wb") as mended:
+                count = copy_whole(path, mended)
             os.utime(beside, ns=(path.stat().st_atime_ns, path.stat().st_mtime_ns))  # its age stays
             os.replace(beside, path)
         finally:
@@ -86,26 +90,37 @@ def repair(path: Path) -> int | None:
     return count
 
 
-def _copy(broken: BinaryIO, mended: BinaryIO, name: str) -> int:
-    """Copy record by record up to the first that is not whole."""
+def copy_whole(path: Path, mended: BinaryIO) -> int:
+    """Copy record by record, up to the first that is not whole, and write an end; how many messages there are.
+
+    Raises:
+        InputError: it is no recording.
+        OSError: it cannot be read, or the copy not be written.
+    """
+    header = _header(path)
+    with path.open("rb") as broken:
+        return _copy(broken, mended, header)
+
+
+def _header(path: Path) -> Header:
+    from mcap.records import Header
+
+    with path.open("rb") as file:
+        found = next(_records(file), None)
+    if not isinstance(found, Header):
+        raise InputError("is no recording: it does not begin as one", where=str(path), allowed="an MCAP file")
+    return found
+
+
+def _copy(broken: BinaryIO, mended: BinaryIO, header: Header) -> int:
     from mcap import records
     from mcap.writer import Writer
 
-    found = _records(broken)
-    header = next(found, None)
-    if not isinstance(header, records.Header):
-        raise InputError("is no recording: it does not begin as one", where=name, allowed="an MCAP file")
-    if not header.library.startswith(LIBRARY):  # its writer may be at work: it holds no lock of ours
-        raise InputError(
-            "is not whole, and another program's: only that may write there",
-            where=name,
-            allowed=f"end that program; or mcap recover {name} -o NEW.mcap, or ros2 bag reindex, and then that file",
-        )
     writer, count = Writer(mended), 0
     writer.start(header.profile, header.library)
     schemas: dict[int, int] = {0: 0}
     channels: dict[int, int] = {}
-    for record in found:
+    for record in _records(broken):
         if isinstance(record, records.Metadata):
             writer.add_metadata(record.name, record.metadata)
         elif isinstance(record, records.Schema) and record.id not in schemas:

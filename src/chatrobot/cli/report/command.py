@@ -38,13 +38,13 @@ def run(args: argparse.Namespace) -> int:
     from chatrobot.cli.report.drive import Drive
     from chatrobot.cli.report.summary import words_in
 
-    recording, was_repaired = read_recording(args.file)
+    recording, amiss = read_recording(args.file)
     drive = Drive.of(recording, args.language or None)
     say = words_in(drive.language)
-    if was_repaired:
-        print(f"chatrobot: {say('repaired')}", file=sys.stderr)
+    if amiss:
+        print(f"chatrobot: {say(amiss)}", file=sys.stderr)
     for kind, out in outs.items():
-        _private(out, _writer(kind, drive, say, was_repaired))
+        _private(out, _writer(kind, drive, say, amiss))
         print(say("written", file=out, size=_size(out)))
     return 0
 
@@ -53,7 +53,7 @@ def _out(path: Path, kind: str, chosen: str) -> Path:
     """Return the file to write: beside the recording where nobody says.
 
     Raises:
-        UsageError: its name ends as another kind of file, so that it may be one: a recording, say.
+        UsageError: it ends as another kind of file, which it may be (a recording, say); or there is no such folder.
     """
     out = Path(chosen).expanduser() if chosen else path.with_suffix(f".{kind}")
     if out.suffix.lower() != f".{kind}":
@@ -62,17 +62,19 @@ def _out(path: Path, kind: str, chosen: str) -> Path:
             where=f"--{kind}",
             allowed=f"a name that ends in .{kind}, or none behind the recording: chatrobot report FILE --{kind}",
         )
+    if not out.parent.is_dir():
+        raise UsageError("there is no such folder", where=str(out.parent), allowed="a folder that is there")
     return out
 
 
-def _writer(kind: str, drive: Drive, say: Say, was_repaired: bool) -> Callable[[Path], object]:
+def _writer(kind: str, drive: Drive, say: Say, amiss: str) -> Callable[[Path], object]:
     """Return what writes a report of that kind; each imports what it needs itself."""
     from chatrobot.cli.drawing.canvas import Canvas
     from chatrobot.cli.drawing.svg import SvgCanvas
     from chatrobot.cli.report import animation, figure, page
 
     writers: dict[str, Callable[[Path], object]] = {
-        "html": lambda out: out.write_text(page.make_page(drive, say, was_repaired=was_repaired), "utf-8"),
+        "html": lambda out: out.write_text(page.make_page(drive, say, amiss), "utf-8"),
         "svg": lambda out: figure.write_figure(drive, say, out, SvgCanvas),
         "png": lambda out: figure.write_figure(drive, say, out, Canvas),
         "gif": lambda out: animation.write_gif(drive, out),

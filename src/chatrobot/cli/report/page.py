@@ -34,11 +34,11 @@ _SHOWN_TIMES = 4
 _NUMBERS = ("told", "measured", "took", "tokens", "cost")
 
 
-def make_page(drive: Drive, say: Say, *, was_repaired: bool = False) -> str:
-    """Return the page, in HTML."""
+def make_page(drive: Drive, say: Say, amiss: str = "") -> str:
+    """Return the page, in HTML. `amiss`: the word for what is wrong with the recording."""
     lines = [f"<p>{_text(' '.join(sentences(drive, say)))}</p>"]
-    if was_repaired:
-        lines.append(f'<p class="note">{_text(say("repaired"))}</p>')
+    if amiss:
+        lines.append(f'<p class="note">{_text(say(amiss))}</p>')
     figures = [*_map(drive, say), *_speeds(drive, say)]
     style = "".join((_asset("page.css"), SHAPES_STYLE, dark_style(), _shape_rule(drive)))
     script = _asset("page.js")
