@@ -20,6 +20,7 @@ from chatrobot.sim.load import load_world
 from tests.processes import TalkingProcess
 from tests.report.recorded import session
 from tests.web.browser import browser, open_page
+from tests.web.rig import wait_until
 
 __all__ = ["browser"]
 pytestmark = pytest.mark.realtime
@@ -67,6 +68,9 @@ def test_the_page_shows_the_poses_of_the_recording_to_the_centimetre(
         page = open_page(browser, found[0], script=NOTE_DRAWN)
         expect(page.locator("#turns")).to_contain_text("This is the end of the recording.")
         drawn = poses_drawn(page)
+        page.reload()  # somebody who comes after its end
+        wait_until(lambda: bool(poses_drawn(page)))
+        assert off_m(poses_drawn(page)[-1], drawn[-1]) < SAME_M
         page.context.close()
     finally:
         replay.process.terminate()

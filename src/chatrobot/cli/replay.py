@@ -21,7 +21,7 @@ from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import InputError, UsageError
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.recording.about import world_of
-from chatrobot.recording.playback import Heard, Shown, play, shown
+from chatrobot.recording.playback import TELEMETRY_S, Heard, Shown, play, shown
 from chatrobot.recording.reader import Recording
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -148,6 +148,7 @@ def _show_in_browser(args: argparse.Namespace, recording: Recording) -> int:
         play(items, args.speed, room.show, lambda: not (watch.is_leaving or room.is_halted))
         room.tell_end()
         while not watch.is_leaving:
-            time.sleep(0.1)
+            room.tell_again()
+            time.sleep(TELEMETRY_S)
         server.close()
     return STOPPED

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from chatrobot.compose import Connection
-from chatrobot.core.events import Notice
+from chatrobot.core.events import Notice, Telemetry
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.options import Options
 from chatrobot.recording.playback import Heard, Shown
@@ -33,6 +33,7 @@ class ReplayRoom(Room):
     def __init__(self, profile: RobotProfile, world: World) -> None:
         super().__init__()
         self.is_halted = False
+        self._last: Telemetry | None = None
         replayed = _Replayed(replace(profile, title=f"▷ {profile.title}"), world, self._halt)
         self.open(cast(Connection, replayed), lambda job: job(), is_simulated=True)
         self.hear(Notice(0, Reason("replay_begins")))
@@ -43,7 +44,13 @@ class ReplayRoom(Room):
             if item.text:
                 self.note_said(item.turn, item.text, _PERSON, "")
         else:
+            self._last = item if isinstance(item, Telemetry) else self._last
             self.hear(item)
+
+    def tell_again(self) -> None:
+        """Tell where the robot is, as one that is there does all the time: somebody may just have come."""
+        if self._last is not None:
+            self.hear(self._last)
 
     def tell_end(self) -> None:
         """Tell everybody that there is no more."""
