@@ -40,6 +40,10 @@ TESTS = {
         (*ROS, "launch_ros", "turtlesim"),
         "turtlesim drives a square; DDS without ROS drives it, either started first, LOCALHOST and SUBNET",
     ),
+    "test_bags.py": (
+        (*ROS, "ros2bag", "ros2bag_mcap_cli", "mcap"),
+        "chatrobot record over rclpy, ros2 bag info and play of recordings",
+    ),
     "test_programs_like_rclpy.py": (("rclpy",), "programs under real rclpy do what they do in the sandbox"),
     "test_messages_like_ros.py": (("rclpy",), "message classes of the sandbox against ROS's own"),
     "test_sandbox_like_rclpy.py": (("rclpy",), "what our rclpy says against what rclpy says"),
