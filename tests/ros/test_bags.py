@@ -1,4 +1,4 @@
-"""Recordings under rosbag2: `chatrobot record --on ros`, `ros2 bag info` and `ros2 bag play`, as a person types them."""
+"""Recordings under rosbag2: `chatrobot record --on ros`, `ros2 bag info` and `ros2 bag play`, as a person does it."""
 
 from __future__ import annotations
 
