@@ -213,7 +213,11 @@ def _record(connection: Connection, tap: _Tap, path: Path, tokens: Callable[[], 
         return (*tokens(), *([secret.reveal()] if secret is not None else ()))
 
     wire, clock = connection.prepared.listen()
-    recorder = Recorder(path, Redactor(in_use, os.environ), clock=clock, limit_bytes=MOST_BYTES)
+    try:
+        recorder = Recorder(path, Redactor(in_use, os.environ), clock=clock, limit_bytes=MOST_BYTES)
+    except OSError:
+        wire.close()
+        raise
     recorder.listen(wire, connection.profile.wiring, TRUTH_TOPIC)
     language = session.understanding.language
     recorder.start(lambda: about_of(connection.profile, connection.world, on=setup.on, language=language))
