@@ -107,6 +107,7 @@ _JSON = (
     "replay",
     "eval",
     "world list",
+    "world check",
     "lesson",
     "worlds",
     "doctor",

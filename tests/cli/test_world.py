@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -48,6 +49,10 @@ MISTAKES = {
     "radius_m: 0.2": ("radius_m: small", "line 21: obstacles[5].circle.radius_m: 'small' is not a number"),
     "length_m: 1.2, ": ("", "line 20: obstacles[4].rectangle: length_m is missing"),
     "[4.2, 0.05]]": ("[4.2]]", "line 22: obstacles[6].polygon[2]: a point has two numbers, not 1 ([x, y])"),
+    "radius_m: 0.2}": ("radius_m: 0,2}", "line 21: obstacles[5].circle.2: unknown field (a number has a decimal point"),
+    "name: room": ("name: 'room", "line 5: is not YAML: found unexpected end of stream (each quotation mark closed)"),
+    "name: corner": ("name: DOOR", "line 29: places[2].name: 'DOOR' names the place 'door' already (each name once"),
+    "name: plant": ("name: '" + 81 * "x" + "'", "has 81 characters (80 at most)"),
     "start: {x_m: 1.0,": ("start：{x_m: 1.0,", "is not YAML"),
     "  - {name: plant": ("\t- {name: plant", "spaces to indent, no tabs"),
     "x_m: 3.2, y_m: 1.6": ("x_m: 3.4, y_m: 2.6", "line 27: the place 'table' lies in the table (0.22 m of room"),
@@ -72,6 +77,20 @@ def test_a_mistake_is_told_by_its_line_with_what_is_allowed(world: Path, capsys:
     assert code == 1
     assert said in told
     assert "room.yaml, line " in told
+
+
+def test_problems_come_as_json_lines(world: Path, capsys: Output) -> None:
+    code, told = checked(capsys, "--json")
+    assert (code, json.loads(told)["places"]) == (0, ["table", "door", "corner"])
+    world.write_text(
+        world.read_text(encoding="utf-8").replace("x_m: 3.2, y_m: 1.6", "x_m: 3.4, y_m: 2.6"),
+        encoding="utf-8",
+    )
+    code, told = checked(capsys, "--json")
+    problem = json.loads(told)
+    assert (code, problem["event"], problem["where"]) == (1, "problem", "room.yaml, line 27")
+    assert problem["problem"] == "the place 'table' lies in the table"
+    assert problem["allowed"].startswith("0.22 m of room")
 
 
 @pytest.mark.usefixtures("world")

@@ -90,6 +90,7 @@ def objects(
     sheet.write_text(LESSON, encoding="utf-8")
     lines.write_text("forward 20 cm\n", encoding="utf-8")
     for words in (
+        ["world", "check", str(corpus)],
         ["lesson"],
         ["lesson", str(sheet), "--check", str(lines)],
         ["lesson", str(sheet), "--test"],

@@ -93,7 +93,9 @@ def test_every_occupied_cell_is_covered_once() -> None:
         ("resolution: 0.05\n", "", "resolution is missing"),
         ("origin: [-1.0, -2.0, 0.0]", "origin: [-1.0, -2.0]", "line 3: origin: has 2 numbers"),
         ("negate: 0", "negat: 0", "did you mean negate"),
-        ("negate: 0", "negate: 0\nmode: raw", "'raw' cannot be read"),
+        ("negate: 0", "negate: 0\nmode: raw", "'raw' is not possible (allowed: trinary, scale)"),
+        ("negate: 0", "negate: 0.5", "'0.5' is not possible (allowed: 0, 1, false, true)"),
+        ("image: {image}", "image: .", "is no picture: Is a directory"),
         ("free_thresh: 0.25", "free_thresh: 0.9", "above occupied_thresh"),
     ],
 )

@@ -241,7 +241,7 @@ def test_polygons_are_counter_clockwise_however_they_were_given() -> None:
         ("wall, wall: {from: [0, 4], to: [4, 4], thickness_m: 0.1}", "wall", 7, ("exactly one shape",)),
         ("to: [4, 4]", "to: [0, 4]", 7, ("the same point",)),
         ("thickness_m: 0.1", "thickness_m: .inf", 7, ("thickness_m",)),
-        ("[柱子]", "[pillar]", 9, ("aliases[0]", "already names pillar")),
+        ("[柱子]", "[pillar]", 9, ("aliases[0]", "names the place 'pillar' already")),
         ("[柱子]", "柱子", 9, ("aliases", "must be a list")),
         ("yaw_deg: 180", "yaw_deg: 999", 9, ("yaw_deg", "999", "-360 to 360")),
         ("places:", "place:", 8, ("place", "unknown field", "places")),

@@ -8,7 +8,7 @@ from typing import Any
 
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.json_lines import json_line
-from chatrobot.core.errors import UsageError, WorldError
+from chatrobot.core.errors import InputError, UsageError, WorldError
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -103,20 +103,28 @@ def _draw_here(world: World) -> int:
 
 
 def _check(args: argparse.Namespace) -> int:
+    profile = _profile(args)
     try:
         file = find_world(args.world)
+        found = [*_problems(file, profile)]
     except WorldError as error:
-        print(error)
-        return 1
-    profile = _profile(args)
-    found = [*_problems(file, profile)]
-    for problem in found:
-        print(problem)
+        return _tell(args, [error])
     if found:
-        print(f"{len(found)} problem{'s' if len(found) > 1 else ''}: see docs/worlds.md")
-        return 1
-    print(f"{args.world}: fine for {profile.title}: {_told(file.world)}")
+        return _tell(args, found)
+    if args.json:
+        print(json_line({"event": "world", "name": file.world.name, **_facts(file.world)}), end="")
+    else:
+        print(f"{args.world}: fine for {profile.title}: {_told(file.world)}")
     return 0
+
+
+def _tell(args: argparse.Namespace, found: list[InputError]) -> int:
+    for error in found:
+        told = {"where": error.where, "problem": error.problem, "allowed": error.allowed}
+        print(json_line({"event": "problem", **told}) if args.json else f"{error}\n", end="")
+    if not args.json:
+        print(f"{len(found)} problem{'s' if len(found) > 1 else ''}: see docs/worlds.md")
+    return 1
 
 
 def _told(world: World) -> str:
@@ -129,7 +137,7 @@ def _told(world: World) -> str:
     return f"{_size(_facts(world))}, {reached}"
 
 
-def _problems(file: WorldFile, profile: RobotProfile) -> list[WorldError]:
+def _problems(file: WorldFile, profile: RobotProfile) -> list[InputError]:
     from chatrobot.cli.world_check import problems, unsaid_names
 
     return [*problems(file, profile), *unsaid_names(file, profile)]

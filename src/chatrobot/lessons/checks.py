@@ -22,6 +22,8 @@ from chatrobot.sim.fields import Field
 from chatrobot.sim.world import World
 
 State = Literal["done", "missing", "broken"]
+MOST = 1e5
+"""Of any amount."""
 TOUCH_M = 0.002
 """Nearer than this to a thing is touching it: the simulator lets a robot come to within 0.1 mm."""
 
@@ -58,18 +60,18 @@ class Range:
     high: float = math.inf
 
     @classmethod
-    def read(cls, given: Field) -> Range:
-        """Read `{at_least: …, at_most: …}`, one of them or both; or a single number."""
+    def read(cls, given: Field, least: float) -> Range:
+        """Read `{at_least: …, at_most: …}`, one of them or both; or a single number. None is below `least`."""
         if not given.is_mapping:
-            value = given.number()
+            value = given.number(least, MOST)
             return cls(value, value)
         fields = given.mapping("at_least", "at_most")
         if not fields:
             raise given.error("is empty", "at_least, at_most, or both")
-        low = fields["at_least"].number() if "at_least" in fields else -math.inf
-        high = fields["at_most"].number() if "at_most" in fields else math.inf
+        low = fields["at_least"].number(least, MOST) if "at_least" in fields else -math.inf
+        high = fields["at_most"].number(least, MOST) if "at_most" in fields else math.inf
         if low > high:
-            raise given.error("at_least is more than at_most")
+            raise given.error("at_least is more than at_most", "at_least: less, at_most: more")
         return cls(low, high)
 
     @property
@@ -272,10 +274,10 @@ def read_spot(given: Field, world: World) -> Spot:
     """Read a name, `{place: NAME, within_m: …}` or `{x_m: …, y_m: …, within_m: …}`."""
     fields = given.mapping("place", "x_m", "y_m", "within_m") if given.is_mapping else {"place": given}
     within_m = fields["within_m"].size() if "within_m" in fields else _NEAR_M
-    if "place" in fields:
+    if "place" in fields and not {"x_m", "y_m"} & {*fields}:
         return read_place(fields["place"], world, within_m)
-    if not ("x_m" in fields and "y_m" in fields):
-        raise given.error("names no place", "place: NAME, or x_m and y_m from where the task begins")
+    if "place" in fields or not ("x_m" in fields and "y_m" in fields):
+        raise given.error("names no place, or two", "place: NAME, or x_m and y_m from where the task begins")
     return Spot(Pose(fields["x_m"].number(), fields["y_m"].number()), GOAL, within_m, is_seen=True)
 
 
@@ -286,8 +288,7 @@ def read_place(named: Field, world: World, within_m: float = _NEAR_M) -> Spot:
         return Spot(Pose(), START, within_m, is_seen=True)
     pose, main = world.place(name), world.aliases.get(name.casefold(), name)
     if pose is None:
-        known = ", ".join((START[0], *world.places))
-        raise named.error(f"the world {world.name} has no place {name!r}", f"allowed: {known}")
+        raise named.unknown(f"the world {world.name} has no place {name!r}", (START[0], *world.places))
     return Spot(pose, world.names_of(main), within_m)
 
 
@@ -302,18 +303,19 @@ def _heading(given: Field, _: World) -> Check:
 def _words(given: Field) -> tuple[str, ...]:
     if given.is_mapping:
         return tuple(word for each in given.mapping("en", "zh").values() for word in _words(each))
-    return tuple(item.text() for item in given.items())
+    return tuple(item.text() for item in given.filled())
 
 
 def _set(given: Field, check: Check) -> Check:
-    given.choice("true")
+    given.choice("true", "True", "TRUE")
     return check
 
 
 def _amount(
     name: str, measure: Callable[[Figures], float], decimals: int, *, only_grows: bool = True
 ) -> Callable[[Field, World], Check]:
-    return lambda given, _: Amount(name, Range.read(given), measure, decimals, only_grows)
+    least = -MOST if name == "turned_deg" else 0.0
+    return lambda given, _: Amount(name, Range.read(given, least), measure, decimals, only_grows)
 
 
 def _gap_m(figures: Figures) -> float:
@@ -321,14 +323,14 @@ def _gap_m(figures: Figures) -> float:
 
 
 def _plan_words(given: Field, _: World) -> Check:
-    words: Sequence[Field] = given.items() if given.is_list else [given]
+    words: Sequence[Field] = given.filled() if given.is_list else [given]
     known = ("drive", "turn", "arc", "twist", "go", "face", "wait", "repeat", "say", "remember", "until")
     return PlanHas(tuple(word.choice(*known) for word in words))
 
 
 CHECKS: Mapping[str, Callable[[Field, World], Check]] = {
     "ends_at": lambda given, world: EndsAt(read_spot(given, world)),
-    "passes": lambda given, world: Passes(tuple(read_spot(item, world) for item in given.items())),
+    "passes": lambda given, world: Passes(tuple(read_spot(item, world) for item in given.filled())),
     "heading_deg": _heading,
     "turned_deg": _amount("turned_deg", lambda it: it.measured.turned_deg, 0, only_grows=False),
     "path_m": _amount("path_m", lambda it: it.measured.path_m, 2),

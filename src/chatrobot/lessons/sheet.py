@@ -55,7 +55,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A lesson. `world_name` and `robot` are what a session is set up with."""
+    """A lesson. `world_name` and `robot` are what a session is set up with; `robot_at` is where it is named."""
 
     name: str
     title: Saying
@@ -63,6 +63,7 @@ class Sheet:
     world_name: str
     world: World
     robot: str
+    robot_at: str
     tasks: tuple[Task, ...]
 
 
@@ -111,6 +112,7 @@ def parse_sheet(text: str, source: str, name: str, folder: Path) -> Sheet:
         world_name=world_name,
         world=world,
         robot=fields["robot"].text() if "robot" in fields else DEFAULT_ROBOT,
+        robot_at=fields["robot"].where if "robot" in fields else source,
         tasks=tuple(_task(item, world) for item in tasks),
     )
 

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     import yaml
 
 MAX_COORDINATE_M = 1000.0
+MAX_BYTES = 5_000_000
+"""Of a file: more than that would be read for minutes."""
+MAX_NAME_CHARACTERS = 80
+"""As of a place in plan text."""
 _FULL_WIDTH = "：，［］｛｝"
 """Of a Chinese keyboard: YAML takes them for letters."""
 
@@ -25,11 +29,18 @@ def read_text(path: Path, kind: type[InputError] = WorldError) -> str:
         InputError: of that kind; it cannot be read, or is no text.
     """
     try:
-        return path.read_text(encoding="utf-8-sig")
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+        if len(data) > MAX_BYTES:
+            raise kind("is too large", where=str(path), allowed=f"{MAX_BYTES // 1_000_000} MB at most")
+        return data.decode("utf-8-sig")
     except OSError as error:
-        raise kind(f"cannot be read ({error.strerror})", where=str(path)) from error
+        raise kind(f"cannot be read ({error.strerror})", where=str(path), allowed="a YAML file") from error
     except UnicodeDecodeError as error:
-        raise kind("cannot be read", where=str(path), allowed="YAML in UTF-8") from error
+        line = data.count(b"\n", 0, error.start) + 1
+        raise kind(
+            "is no text in UTF-8", where=f"{path}, line {line}", allowed="YAML saved as UTF-8"
+        ) from error
 
 
 class Field:
@@ -62,6 +73,10 @@ class Field:
         what = f"{self.name}: {problem}" if self.name else problem
         return self._error(what, where=self.where, allowed=allowed)
 
+    def unknown(self, problem: str, allowed: tuple[str, ...]) -> InputError:
+        """Make the error for a word that is none of those that are allowed."""
+        return self.error(problem, f"{_meant(str(self._node.value), allowed)}allowed: {', '.join(allowed)}")
+
     def mapping(self, *allowed: str, required: tuple[str, ...] = ()) -> dict[str, Field]:
         """The fields of a mapping; none but the allowed ones, none missing, none twice.
 
@@ -70,16 +85,12 @@ class Field:
         """
         fields: dict[str, Field] = {}
         for key_node, value_node in self._pairs(allowed):
-            key = str(key_node.value)
+            key = key_node.value if isinstance(key_node.value, str) else "[…]"
             field = Field(value_node, self._source, f"{self.name}.{key}" if self.name else key, self._error)
             if key not in allowed:
-                near = difflib.get_close_matches(key, allowed, n=1)
-                meant = f"did you mean {near[0]}? " if near else ""
-                raise Field(key_node, self._source, field.name, self._error).error(
-                    "unknown field", f"{meant}allowed: {', '.join(allowed)}"
-                )
+                raise Field(key_node, self._source, field.name, self._error).unknown("unknown field", allowed)
             if key in fields:
-                raise field.error("is given twice")
+                raise field.error("is given twice", "once")
             fields[key] = field
         for key in required:
             if key not in fields:
@@ -111,12 +122,26 @@ class Field:
             for i, node in enumerate(self._node.value)
         ]
 
+    def filled(self) -> list[Field]:
+        """The entries of a list that has some."""
+        entries = self.items()
+        if not entries:
+            raise self.error("is empty", "one entry at least")
+        return entries
+
     def text(self) -> str:
         """One line of text."""
         value = self._node.value
         if self._kind != "scalar" or not value.strip() or not value.isprintable():
             raise self.error("must be a line of text", "a word or two")
         return str(value.strip())
+
+    def called(self) -> str:
+        """What something is called."""
+        name = self.text()
+        if len(name) > MAX_NAME_CHARACTERS:
+            raise self.error(f"has {len(name)} characters", f"{MAX_NAME_CHARACTERS} at most")
+        return name
 
     def lines(self) -> str:
         """Text of one line or more."""
@@ -127,10 +152,10 @@ class Field:
 
     def choice(self, *allowed: str) -> str:
         """One of some words."""
-        text = self.text()
+        text = self._node.value if self._kind == "scalar" else ""
         if text not in allowed:
-            raise self.error(f"{text!r} is not possible", f"allowed: {', '.join(allowed)}")
-        return text
+            raise self.unknown(f"{text!r} is not possible", allowed)
+        return str(text)
 
     def number(self, least: float = -MAX_COORDINATE_M, most: float = MAX_COORDINATE_M) -> float:
         """A number from `least` to `most`."""
@@ -174,9 +199,8 @@ def compose(
     try:
         node = yaml.compose(text, Loader=loader)
     except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f"{source}, line {mark.line + 1}" if mark else source
-        problem = getattr(error, "problem", None) or str(error)
+        problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
+        where = f"{source}, line {_line_of(error, text)}"
         raise kind(f"is not YAML: {problem}", where=where, allowed=_hint(problem)) from error
     except RecursionError as error:
         raise kind("is nested too deeply", where=source) from error
@@ -185,12 +209,38 @@ def compose(
     return Field(node, source, "", kind)
 
 
+def _line_of(error: yaml.YAMLError, text: str) -> int:
+    """Where it went wrong: where a text begins that never ends, else where the reader stood."""
+    begun, stood = getattr(error, "context_mark", None), getattr(error, "problem_mark", None)
+    mark = begun if begun is not None and _NO_END in str(getattr(error, "problem", "")) else stood
+    if mark is not None:
+        return int(mark.line) + 1
+    before = text.encode("utf-8", "replace")[: getattr(error, "position", 0)]
+    return before.count(b"\n") + 1
+
+
+_NO_END = "end of stream"
+_HINTS = {
+    "cannot start any token": "spaces to indent, no tabs; quotes around a text that begins with @, % or `",
+    "tab character": "spaces to indent, no tabs",
+    "mapping values": "one 'name: value' a line; quote a text that has a colon in it",
+    "expected ',' or": "a comma between entries, : and , in half width, and every { and [ closed",
+    _NO_END: "each quotation mark closed",
+    "alias": "quotes around a text that begins with * or &",
+    "another document": "one document a file: no line with ---",
+    "'-' indicator": "all entries of a list indented alike",
+    "control characters": "plain text: delete that character",
+}
+"""What most who see a problem have to change, by words of it."""
+
+
 def _hint(problem: str) -> str:
-    """What most who see that problem have to change."""
-    if "cannot start any token" in problem:
-        return "spaces to indent, no tabs; quotes around a text that begins with @, % or `"
-    if "mapping values" in problem:
-        return "one 'name: value' a line; quote a text that has a colon in it"
-    if "expected ',' or" in problem:
-        return "a comma between entries, and every { and [ closed"
-    return "'name: value', indented by spaces as in chatrobot world new FILE"
+    told = (hint for words, hint in _HINTS.items() if words in problem)
+    return next(told, "'name: value', indented by spaces as in chatrobot world new FILE")
+
+
+def _meant(key: str, allowed: tuple[str, ...]) -> str:
+    if key.isdecimal():
+        return "a number has a decimal point, no comma; "
+    near = difflib.get_close_matches(key, allowed, n=1)
+    return f"did you mean {near[0]}? " if near else ""

@@ -150,7 +150,9 @@ def _polygon(field: Field) -> Polygon:
     try:
         return polygon(tuple(point.point() for point in field.items()))
     except ValueError as error:
-        raise field.error(str(error), "a list of at least 3 points [x, y]") from None
+        raise field.error(
+            str(error), "a list of at least 3 points [x, y], one after the other around it"
+        ) from None
 
 
 def _wall(field: Field) -> Polygon:
@@ -160,7 +162,7 @@ def _wall(field: Field) -> Polygon:
     (ax, ay), (bx, by) = fields["from"].point(), fields["to"].point()
     thickness_m = fields["thickness_m"].size()
     if (ax, ay) == (bx, by):
-        raise field.error("both ends of a wall are the same point")
+        raise field.error("both ends of a wall are the same point", "from: [x, y], to: another [x, y]")
     length_m = math.hypot(bx - ax, by - ay) + thickness_m
     return rectangle((ax + bx) / 2, (ay + by) / 2, length_m, thickness_m, math.atan2(by - ay, bx - ax))
 
@@ -179,8 +181,8 @@ def _obstacle(field: Field, start: Pose) -> Obstacle:
     if len(kinds) != 1:
         raise field.error("needs exactly one shape", f"one of {', '.join(_SHAPES)}")
     shape = _SHAPES[kinds[0]](fields[kinds[0]])
-    others = tuple(alias.text() for alias in fields["aliases"].items()) if "aliases" in fields else ()
-    return Obstacle(fields["name"].text(), shape.seen_from(start), others)
+    others = tuple(alias.called() for alias in fields["aliases"].items()) if "aliases" in fields else ()
+    return Obstacle(fields["name"].called(), shape.seen_from(start), others)
 
 
 def _places(field: Field | None, start: Pose) -> tuple[dict[str, Pose], dict[str, str], frozenset[str]]:
@@ -190,17 +192,20 @@ def _places(field: Field | None, start: Pose) -> tuple[dict[str, Pose], dict[str
     aliases: dict[str, str] = {}
     for item in field.items() if field else []:
         fields = item.mapping("name", "aliases", "x_m", "y_m", "yaw_deg", required=("name", "x_m", "y_m"))
-        name = fields["name"].text()
-        if name in places:
-            raise fields["name"].error(f"{name} names another place already")
+        name = fields["name"].called()
         pose = Pose(fields["x_m"].number(), fields["y_m"].number(), _yaw(fields))
         places[name] = pose.relative_to(start)
         if "yaw_deg" not in fields:
             without_heading.add(name)
         others = fields["aliases"].items() if "aliases" in fields else []
         for alias_field in (fields["name"], *others):
-            alias = alias_field.text().casefold()
-            if alias in aliases:
-                raise alias_field.error(f"{alias} already names {aliases[alias]}")
-            aliases[alias] = name
+            alias = alias_field.called()
+            if (folded := alias.casefold()) in aliases:
+                main = aliases[folded]
+                is_alias = alias_field is not fields["name"]
+                other = f"the place {main!r}" if is_alias or main != alias else "another place"
+                raise alias_field.error(
+                    f"{alias!r} names {other} already", "each name once; capitals count alike"
+                )
+            aliases[folded] = name
     return places, aliases, frozenset(without_heading)

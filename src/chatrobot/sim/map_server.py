@@ -71,9 +71,9 @@ def _occupied(fields: dict[str, Field], folder: Path) -> NDArray[np.bool_]:
     """[rows, columns], the lowest row first."""
     import numpy as np
 
-    if "mode" in fields and fields["mode"].text() not in ("trinary", "scale"):
-        raise fields["mode"].error(f"{fields['mode'].text()!r} cannot be read", "trinary or scale")
-    negate = bool(fields["negate"].number(0, 1)) if "negate" in fields else False
+    if "mode" in fields:
+        fields["mode"].choice("trinary", "scale")
+    negate = "negate" in fields and fields["negate"].choice("0", "1", "false", "true") in ("1", "true")
     share = fields["occupied_thresh"].number(0.0, 1.0) if "occupied_thresh" in fields else _OCCUPIED_SHARE
     if "free_thresh" in fields and fields["free_thresh"].number(0.0, 1.0) > share:
         raise fields["free_thresh"].error("is above occupied_thresh", "less than that")
@@ -94,12 +94,16 @@ def _pixels(field: Field, folder: Path) -> tuple[NDArray[np.float64], NDArray[np
         with Image.open(path) as picture:
             if picture.width * picture.height > MAX_CELLS:
                 raise field.error(f"has {picture.width} × {picture.height} pixels", f"{MAX_CELLS} at most")
+            if picture.mode == "F":
+                raise field.error(f"{path} has fractions for pixels", "a PGM or PNG of 8 or 16 bits")
             is_wide = picture.mode.startswith("I")  # 16 bits a pixel
             pixels = np.asarray(picture if is_wide else picture.convert("RGBA"), dtype=float)
     except FileNotFoundError:
         raise field.error(f"there is no file {path}", "a path beside this file") from None
     except (OSError, UnidentifiedImageError, Image.DecompressionBombError, ValueError) as error:
-        raise field.error(f"{path} is no picture: {error}", "a PGM or PNG") from error
+        raise field.error(
+            f"{path} is no picture: {getattr(error, 'strerror', None) or error}", "a PGM or PNG"
+        ) from error
     if is_wide:
         return pixels / 65535.0, np.ones(pixels.shape, dtype=bool)
     return pixels[..., :3].mean(axis=2) / 255.0, pixels[..., 3] > 0

@@ -70,14 +70,31 @@ def polygon(points: tuple[Point, ...]) -> Polygon:
     """Make a polygon from corners in either sense of rotation.
 
     Raises:
-        ValueError: fewer than three corners, or no area.
+        ValueError: fewer than three corners, or no area, or edges that cross.
     """
     if len(points) < 3:
         raise ValueError(f"a polygon has at least 3 corners, not {len(points)}")
+    if _crosses_itself(points):
+        raise ValueError("the edges of a polygon must not cross")
     twice_area = sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1]))
     if abs(twice_area) < 1e-9:
         raise ValueError("the corners of a polygon must not lie on one line")
     return Polygon(points if twice_area > 0.0 else tuple(reversed(points)))
+
+
+def _crosses_itself(points: tuple[Point, ...]) -> bool:
+    edges = [*zip(points, points[1:] + points[:1])]
+    return any(_cross(*one, *other) for i, one in enumerate(edges) for other in edges[i + 2 :])
+
+
+def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
+    """Whether the one line goes through the other; not where they only touch."""
+    return _side(a, b, c) * _side(a, b, d) < 0.0 and _side(c, d, a) * _side(c, d, b) < 0.0
+
+
+def _side(a: Point, b: Point, of: Point) -> float:
+    """Positive on the left of the line from `a` to `b`, negative on the right."""
+    return (b[0] - a[0]) * (of[1] - a[1]) - (b[1] - a[1]) * (of[0] - a[0])
 
 
 def rectangle(x_m: float, y_m: float, length_m: float, width_m: float, yaw_rad: float = 0.0) -> Polygon:

@@ -12,12 +12,12 @@ from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.json_lines import json_line
 from chatrobot.cli.recorder import recorded
 from chatrobot.compose import Setup
-from chatrobot.core.errors import UsageError
+from chatrobot.core.errors import LessonError, ProfileError, UsageError
 from chatrobot.lessons.run import LessonRun
 from chatrobot.lessons.sheet import Sheet, lesson_names, load_sheet
 from chatrobot.lessons.words import describe_end, say
 from chatrobot.link.processes import SIMULATED
-from chatrobot.robots.load import profile_argument
+from chatrobot.robots.load import load_profile, profile_argument
 
 _NAME_COLUMNS = 26
 
@@ -91,8 +91,13 @@ def _check(args: argparse.Namespace) -> None:
 def setup_of(args: argparse.Namespace, sheet: Sheet, *, is_alone: bool = False) -> Setup:
     """Gather what was chosen, with the world and the robot of the lesson. `is_alone`: no person is there."""
     setup = setup_from(args, world=sheet.world_name, named_model=is_alone, programs=True)
-    robot = args.robot if args.names_robot else sheet.robot
-    return replace(setup, world=sheet.world_name, robot=robot)
+    if args.names_robot:
+        return replace(setup, world=sheet.world_name, robot=args.robot)
+    try:
+        load_profile(sheet.robot, profile_folders(args))
+    except ProfileError as error:
+        raise LessonError(f"robot: {error}", where=sheet.robot_at) from error
+    return replace(setup, world=sheet.world_name, robot=sheet.robot)
 
 
 def _list(args: argparse.Namespace) -> int:
