@@ -97,3 +97,9 @@ def test_what_cannot_be_done_is_told_with_the_way_out(
     done = chatrobot("lesson", *arguments)
     assert done.code == 2
     assert said in done.err
+
+
+def test_plan_text_keeps_the_language_of_the_pupil(chatrobot: Command, sheet: str) -> None:
+    done = chatrobot("lesson", sheet, "--check", "-", stdin="后退\n/again\ndrive 1 m\n")
+    assert "✓ 任务 1 通过" in done.out, done.err
+    assert "课程没有通过" in done.out

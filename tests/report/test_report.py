@@ -19,6 +19,7 @@ from chatrobot.cli.report.timeline import Timeline
 from chatrobot.core.events import Finished, ModelCalled, ProgramLog, Result
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
+from chatrobot.language.normalise import has_chinese
 from chatrobot.recording import topics
 from chatrobot.recording.reader import read
 from chatrobot.recording.repair import held
@@ -93,6 +94,8 @@ def test_a_recording_in_chinese_gives_a_report_in_chinese(
     assert report(path) == 0
     assert "报告" in capsys.readouterr().out
     assert '<html lang="zh-CN">' in (tmp_path / "run.html").read_text(encoding="utf-8")
+    world = Drive.of(read(path)).world
+    assert all(has_chinese(name) for name in (*world.places, *(one.name for one in world.obstacles)))
     assert report(path, "--language", "en") == 0
     assert '<html lang="en">' in (tmp_path / "run.html").read_text(encoding="utf-8")
 

@@ -22,10 +22,12 @@ class Words:
         self.language: LanguageCode = language
 
     def follow(self, text: str) -> None:
-        """Speak the language of `text` from now on; a text without letters changes nothing."""
+        """Speak the language of `text` from now on; plan text, or one without letters, changes nothing."""
+        from chatrobot.cli.console.pasted import is_plan  # late: the list of words needs no plans
+
         if has_chinese(text):
             self.language = "zh"
-        elif any(char.isalpha() for char in text):
+        elif any(char.isalpha() for char in text) and not is_plan(text):
             self.language = "en"
 
     def say(self, code: str, **values: object) -> str:

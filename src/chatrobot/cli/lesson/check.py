@@ -12,12 +12,14 @@ from typing import Any
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.console.pasted import is_plan
+from chatrobot.cli.console.words import Words, language_of_environment
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.json_lines import Output, json_line
 from chatrobot.cli.lines import texts_in
 from chatrobot.compose import Setup
 from chatrobot.core.errors import UsageError
 from chatrobot.core.events import Event, Result
+from chatrobot.dialogue.session import Session
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.lessons.run import LessonRun, Verdict
 from chatrobot.lessons.sheet import Sheet
@@ -76,6 +78,7 @@ class Referee:
         self, run: LessonRun, output: Output, *, is_json: bool = False, is_quiet: bool = False
     ) -> None:
         self.run = run
+        self.words = Words(language_of_environment())
         self.verdicts: list[Verdict] = []
         self.last_reply = ""
         self._output = output
@@ -92,14 +95,15 @@ class Referee:
         self.write(f"> {text.replace(chr(10), f'{chr(10)}  ')}")
 
     def show(self, event: Event, language: LanguageCode) -> None:
-        """Judge an event, and tell what comes of it."""
+        """Judge an event, and tell what comes of it, in the language of what the pupil types."""
+        del language  # of the reply: of plan text it is English
         verdict = self.run.hear(event)
         if isinstance(event, Result):
             self.last_reply = event.reply
             self.write(f"  {event.reply}")
         if verdict is not None:
             self.verdicts.append(verdict)
-            self.tell(verdict, language)
+            self.tell(verdict, self.words.language)
 
     def tell(self, verdict: Verdict, language: LanguageCode) -> None:
         """Tell a verdict; that the robot was driven to where the task begins is told by its reply."""
@@ -148,8 +152,15 @@ class LessonConversation:
 
     @property
     def language(self) -> LanguageCode:
-        """Of the last text."""
-        return self._conversation.language
+        """Of what the pupil types."""
+        return self._referee.words.language
+
+    @property
+    def _session(self) -> Session:
+        """Plans that are taken as they are get their reply in that language, too."""
+        session = self._conversation.session
+        session.understanding.language = self.language
+        return session
 
     def take(self, text: str) -> None:
         """Do one text, as a pupil types it."""
@@ -162,10 +173,11 @@ class LessonConversation:
         if not run.has_begun:
             self._begin_anew()
         self._referee.turn(text)
+        self._referee.words.follow("" if text.startswith("/") else text)
         if text.startswith("/"):
             self._command(text)
             return
-        session = self._conversation.session
+        session = self._session
         turn = session.say_plan(text) if "\n" in text else session.say(text)
         run.note_said(turn, text)
         self._conversation.see_through(turn)
@@ -190,7 +202,7 @@ class LessonConversation:
                 self._referee.write(f"  {command}: /again, /skip, /hint")
 
     def _begin_anew(self) -> None:
-        session = self._conversation.session
+        session = self._session
         turns: list[int] = []
 
         def drive(plan_text: str) -> int:

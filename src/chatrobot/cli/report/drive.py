@@ -262,14 +262,17 @@ def _is_near(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bo
 
 
 def _in_chinese(world: World) -> World:
-    """Give places, and what is called like one, their Chinese names where they have one."""
+    """Give places and obstacles their Chinese names where they have one, or share one with a place."""
     names = {name: next(filter(has_chinese, world.names_of(name)), name) for name in world.places}
     by_folded = {name.casefold(): chinese for name, chinese in names.items()}
     return replace(
         world,
         places={names[name]: pose for name, pose in world.places.items()},
         obstacles=tuple(
-            replace(one, name=by_folded.get(one.name.casefold(), one.name)) for one in world.obstacles
+            replace(
+                one, name=next(filter(has_chinese, one.aliases), by_folded.get(one.name.casefold(), one.name))
+            )
+            for one in world.obstacles
         ),
     )
 
