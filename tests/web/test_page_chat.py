@@ -16,12 +16,15 @@ from chatrobot.core.events import (
     ProgramWritten,
     Progress,
     Rehearsed,
+    Remembered,
     Result,
     Started,
     Telemetry,
 )
-from chatrobot.core.geometry import ORIGIN, Twist
+from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
+from chatrobot.core.sensed_events import ObstacleChanged
+from chatrobot.language.context import Place
 from chatrobot.link.client_line import TURNS
 from tests.web.browser import PLAN, browser, count_pixels, open_page, page, rehearse, say, write_program
 from tests.web.rig import WebRig, wait_until
@@ -184,5 +187,10 @@ def test_what_others_wrote_is_text_and_never_markup(page: Page, rig: WebRig) -> 
     rig.tell(Result(1, "answered", EVIL))
     expect(page.get_by_role("log", name="What was said")).to_contain_text(EVIL)
     expect(page.locator("#program-name")).to_have_text(EVIL)
+    rig.session.understanding.places.all = lambda: {EVIL: Place(Pose(1.0, 0.0, 0.0))}
+    rig.tell(Remembered(1, EVIL, Pose(1.0, 0.0, 0.0)))
+    page.locator("summary", has_text="Places").click()
+    expect(page.get_by_role("button", name=EVIL)).to_be_visible()
+    rig.tell(ObstacleChanged(0, EVIL, ((0.5, 0.5), (1.0, 0.5), (1.0, 1.0))))
     assert page.locator("#evil, img:not(.icon, #camera-picture)").count() == 0
     assert "ChatRobot" in page.title()
