@@ -3,8 +3,9 @@
     python -m tests.language.ledger            what has changed since the file was written
     python -m tests.language.ledger --write    write it anew
 
-Texts are the corpora, the sayings, and the strings of the tests of this folder. Each is said to an ideal robot. Items
-of `everyday/` with an even number are held out: of these only digests are kept and counts shown.
+Texts are the corpora, the German sources, the sayings, and the strings of the tests of this folder. Each is said to an
+ideal robot. Items of `everyday/` and of sources with an even number, and sources named `hold_*`, are held out: of these
+only digests are kept and counts shown.
 """
 
 from __future__ import annotations
@@ -38,10 +39,11 @@ class Text:
 
     turns: tuple[str, ...]
     item: Item | None = None
+    is_of_held_source: bool = False
 
     @property
     def is_held_out(self) -> bool:
-        return self.item is not None and self.item.number % 2 == 0
+        return self.is_of_held_source or (self.item is not None and self.item.number % 2 == 0)
 
     @property
     def key(self) -> str:
@@ -72,8 +74,16 @@ def _of_corpora() -> Iterator[Text]:
     corpora = HERE.parent / "corpus"
     for file in sorted(corpora.glob("everyday/*.yaml")):
         yield from (Text(tuple(turn.say for turn in item.turns), item) for item in load_corpus(file))
+    for file in sorted(corpora.glob("sources/*_de.yaml")):
+        yield from of_corpus(file)
     for file in sorted(corpora.glob("*.yaml")):
         yield from (Text(tuple(turn.say for turn in item.turns)) for item in load_corpus(file))
+
+
+def of_corpus(file: Path) -> list[Text]:
+    """The texts of one file, each with what must happen."""
+    is_held_out = file.stem.startswith("hold_")
+    return [Text(tuple(turn.say for turn in item.turns), item, is_held_out) for item in load_corpus(file)]
 
 
 def _of_sayings() -> Iterator[Text]:

@@ -16,10 +16,10 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.places import MapWays, Places
 from chatrobot.dialogue.replies import describe_end, describe_model_end
 from chatrobot.language.context import Context, Dialogue, RobotState
+from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord
-from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.steps import Plan, Step
@@ -227,7 +227,7 @@ class Understanding:
         """Return the language of `text`; of what was said last, where it has none."""
         if not any(character.isalpha() for character in text):
             return self.language
-        return "zh" if has_chinese(text) else "en"
+        return language_of(text, self.language)
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """Note where the robot is. `is_ours`: a turn of ours moves it, or may."""

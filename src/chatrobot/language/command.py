@@ -65,7 +65,7 @@ def steps_of(clause: str, reading: Reading) -> list[Step]:
 
 
 def _heard(plain: str, reading: Reading) -> Interpretation | None:
-    if reading.language == "en":
+    if reading.language != "zh":
         return None
     try:
         found = _understood(mended(plain, reading.language), replace(reading, by_ear=True))

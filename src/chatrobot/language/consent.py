@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 
 _MARK = r"[\s,.!，。！、]"
 _GAP = f"{_MARK}*"
@@ -54,6 +54,6 @@ def _beside() -> str:
 
 def _any_of(name: str) -> str:
     """Longest first; a Latin word ends where its letters end, Chinese is written without spaces."""
-    phrases = [phrase for language in LANGUAGES for phrase in load_table(language, "consent")[name]]
+    phrases = [phrase for language in REPLY_LANGUAGES for phrase in load_table(language, "consent")[name]]
     found = "|".join(re.escape(phrase) for phrase in sorted(phrases, key=len, reverse=True))
     return rf"(?:(?:{found})(?:(?<![a-z])|(?<=[a-z])(?![a-z0-9'])))"

@@ -21,6 +21,9 @@ else:
 
 DATA = Path(__file__).parent / "data"
 LANGUAGES = ("en", "zh")
+"""The languages whose words the reader knows. Any other is put into the English ones first, see `gloss.py`."""
+REPLY_LANGUAGES = (*LANGUAGES, "de")
+"""The languages that people are answered in."""
 
 Compiled = TypeVar("Compiled")
 _CHECK_BYTES = 4
@@ -29,10 +32,13 @@ _BRACES = re.compile(r"\{([^{}]*)\}")
 
 @cache
 def load_table(language: str, name: str) -> dict[str, Any]:
-    """One TOML file of a language, as it stands; an empty table where that language has none."""
+    """One TOML file of a language, as it stands; an empty table where that language has none.
+
+    A language that is put into English words to be read has the English table where it has none of its own.
+    """
     path = DATA / language / f"{name}.toml"
     if not path.exists():
-        return {}
+        return {} if language in LANGUAGES else load_table(LANGUAGES[0], name)
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 

@@ -12,7 +12,7 @@ from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan, Step
 
-LanguageCode = Literal["en", "zh"]
+LanguageCode = Literal["en", "zh", "de"]
 Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
 
 

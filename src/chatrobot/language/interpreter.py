@@ -27,15 +27,17 @@ from chatrobot.language.beside import any_may_bear, are_asides
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
+from chatrobot.language.detect import spoken
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
+from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in
-from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese, normalise
+from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.program_request import read_program_request
@@ -72,7 +74,7 @@ _REFERRING = frozenset({"same_amount", "again", "more"})
 
 
 class OfflineInterpreter:
-    """Understands English and Chinese by rules over data. Keeps no state.
+    """Understands English, Chinese and German by rules over data. Keeps no state.
 
     The dialogue comes with the context.
     """
@@ -82,10 +84,13 @@ class OfflineInterpreter:
 
     def interpret(self, text: str, context: Context) -> Interpretation:
         """What `text` means in this context. Never raises, whatever the text."""
-        language: LanguageCode = "zh" if has_chinese(text[:MAX_CHARACTERS]) else "en"
+        language = spoken(text, context)
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
+        return read_glossed(text, language, context, self._read)
+
+    def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         text = without_call_sign(normalise(text), language)
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
@@ -107,7 +112,7 @@ class OfflineInterpreter:
 
     def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
         """The plan as fast or as slow as `said`; None where that says anything else. Never raises."""
-        language: LanguageCode = "zh" if has_chinese(said) else "en"
+        language, said = in_known_words(said, context)
         try:
             plain = rephrased(normalise(said), language)
             return with_manner(plan, plain, Reading(language, context, self._profile))

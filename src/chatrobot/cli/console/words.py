@@ -9,14 +9,14 @@ from collections.abc import Mapping
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed
 from chatrobot.language.data_files import load_table
+from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import LanguageCode
-from chatrobot.language.normalise import has_chinese
 
 _TABLE = "console"
 
 
 class Words:
-    """Says things. `language` is "en" or "zh"; `follow` sets it to that of a question."""
+    """Says things. `language` is "en", "zh" or "de"; `follow` sets it to that of a question."""
 
     def __init__(self, language: LanguageCode = "en") -> None:
         self.language: LanguageCode = language
@@ -25,10 +25,8 @@ class Words:
         """Speak the language of `text` from now on; plan text, or one without letters, changes nothing."""
         from chatrobot.cli.console.pasted import is_plan  # late: the list of words needs no plans
 
-        if has_chinese(text):
-            self.language = "zh"
-        elif any(char.isalpha() for char in text) and not is_plan(text):
-            self.language = "en"
+        if any(char.isalpha() for char in text) and not is_plan(text):
+            self.language = language_of(text, self.language)
 
     def say(self, code: str, **values: object) -> str:
         """Return the words of that code."""
@@ -46,4 +44,6 @@ def language_of_environment(environment: Mapping[str, str] = os.environ) -> Lang
     value = next(
         (environment[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environment.get(name)), ""
     )
-    return "zh" if value.startswith("zh") else "en"
+    if value.startswith("zh"):
+        return "zh"
+    return "de" if value.startswith("de") else "en"

@@ -24,6 +24,7 @@ from chatrobot.core.events import (
     event_from_json,
 )
 from chatrobot.dialogue.replies import describe_end
+from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.normalise import has_chinese
 from chatrobot.recording.about import world_of
@@ -251,10 +252,10 @@ def _as_result(finished: Finished, language: str) -> Result:
 
 def _language_of(recording: Recording) -> LanguageCode:
     """The language of most that was said; where nothing was, that of the person who began."""
-    texts = [text for _, text in recording.words]
-    if not texts:
-        return "zh" if recording.meta.get("language") == "zh" else "en"
-    return "zh" if 2 * sum(map(has_chinese, texts)) > len(texts) else "en"
+    begun: LanguageCode = "zh" if recording.meta.get("language") == "zh" else "en"
+    said = Counter(language_of(text) for _, text in recording.words)
+    most = [language for language, count in said.items() if 2 * count > said.total()]
+    return most[0] if most else "en" if said else begun
 
 
 def _is_near(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bool:

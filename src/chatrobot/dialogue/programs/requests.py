@@ -28,8 +28,8 @@ from chatrobot.dialogue.programs.authoring import (
 )
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.normalise import has_chinese
 from chatrobot.language.phrases import render_reason
 from chatrobot.language.program_request import ProgramRequest
 from chatrobot.link.motion_link import MotionLink
@@ -152,7 +152,7 @@ class ProgramRequests:
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
         """Take the turn if it is about a program; `name` is what it is to be called."""
-        language: LanguageCode = "zh" if has_chinese(text) else "en"
+        language = language_of(text)
         try:
             draft = None if is_asked_for else self.authoring.kept(text, language)
         except NotWrittenError as refusal:

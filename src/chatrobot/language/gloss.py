@@ -1,0 +1,145 @@
+"""Puts a text of a language whose words the reader does not know into English words, word by word.
+
+The reader's rules care little for the order of words, so a gloss is enough: `data/<code>/gloss.toml` has the words, the
+verbs with their forms and what parts from them, and rules for what two languages order differently. What no word of it
+covers keeps its letters and gets a mark, so that it is never taken for a misspelt English word.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+
+from chatrobot.language.gloss_tables import UNIT, VERB, Key, Rules, Tables, folded, tables
+from chatrobot.language.lexicon import lexicon
+from chatrobot.language.normalise import normalise
+from chatrobot.language.typos import is_slip
+
+MARK = "qx"
+"""Ends a word that no gloss covers, so that it is near no English word; no word ends in it."""
+_BREAK = re.compile(r"((?:[,!?;:…\n()\"“”„«»—–]|\.(?!\d))+)")
+_MARKED = re.compile(rf"([\w~]+)\{VERB}")
+_LEAST_STEM, _LEAST_MENDED = 4, 5
+_SPACES = re.compile(r"[ \t]+")
+_SENTENCE = re.compile(r"(?<=[.!?;\n])(?!\d)")
+_BEFORE_MARK = re.compile(r" +([,.!?;:…])")
+
+
+@dataclass(frozen=True)
+class Gloss:
+    """A text in English words; `said` maps words of it to how they were written."""
+
+    text: str
+    said: Mapping[str, str]
+
+    def as_said(self, words: str) -> str:
+        """Part of the gloss as it was written, as far as that is known."""
+        whole = self.said.get(words)
+        return whole or re.sub(r"[^\W\d_]+", lambda found: self.said.get(found[0], found[0]), words)
+
+    def as_kept(self, text: str) -> str:
+        """A text with the words that no gloss covers as they were written."""
+        return re.sub(
+            rf"[^\W\d_]+{MARK}", lambda found: self.said.get(found[0], found[0].removesuffix(MARK)), text
+        )
+
+
+def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
+    """`text` in English words. `names` are words of this dialogue and stay as they are."""
+    using = tables(language)
+    written = {folded(word, language): word for word in re.findall(r"[^\W\d_]+", text)}
+    plain = _replaced(folded(normalise(text), language), using.before)
+    folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
+    found = list(_words(UNIT.findall(plain), using, folded_names))
+    said = {
+        english.replace(VERB, "").strip(): " ".join(written.get(unit, unit) for unit in key)
+        for key, english in found
+        if english
+    }
+    out = _in_order(_tidy(" ".join(english for _, english in found)), using)
+    for name in names:  # `Station zwei` is `station 2`
+        marked = " ".join(f"{re.escape(unit)}(?:{MARK})?" for unit in name)
+        out = re.sub(rf"\b{marked}(?!\w)", " ".join(name), out)
+    return Gloss(out, said)
+
+
+def _in_order(words: str, using: Tables) -> str:
+    """English words in the order that the reader expects."""
+    ruled = "".join(_replaced(part.lstrip(), using.rules) + " " for part in _SENTENCE.split(words))
+    clauses = [clause for part in _BREAK.split(ruled) for clause in using.joint.split(part)]
+    opened = "".join(_verb_first(clause, using) for clause in clauses).replace(VERB, "")
+    return _tidy(_replaced(_tidy(opened).replace("~", " "), using.after)).strip(" ,")
+
+
+def _tidy(text: str) -> str:
+    return _BEFORE_MARK.sub(r"\1", _SPACES.sub(" ", text))
+
+
+def _replaced(text: str, rules: Rules) -> str:
+    for pattern, by in rules:
+        text = pattern.sub(by, text)
+    return text
+
+
+def _words(units: list[str], using: Tables, names: Mapping[Key, Key]) -> Iterator[tuple[Key, str]]:
+    """What stands there, cut into words and phrases, each with its English words."""
+    at, named = 0, max(map(len, names), default=0)
+    while at < len(units):
+        for length in range(max(using.longest.get(units[at], 1), named), 0, -1):
+            key = tuple(units[at : at + length])
+            if key in names or key in using.words:
+                yield key, " ".join(names[key]) if key in names else using.words[key]
+                break
+        else:
+            key = (units[at],)
+            near = _inflected(units[at], using)
+            if near:
+                yield key, using.words[near,]
+                at += 1
+                continue
+            kept = f"{units[at]}{MARK}" if units[at].isalpha() and len(units[at]) > 1 else units[at]
+            yield key, _number(units[at], using) or kept
+        at += len(key)
+
+
+def _inflected(word: str, using: Tables) -> str:
+    """The word that `word` is with another ending, or one slip of the finger away; an empty string for none."""
+    for ending in using.endings:
+        stem = word.removesuffix(ending)
+        if stem != word and len(stem) >= _LEAST_STEM and (stem,) in using.words:
+            return stem
+    if len(word) < _LEAST_MENDED or (word,) in lexicon().words:
+        return ""
+    slips = [meant for meant in using.mended if is_slip(word, meant)]
+    return slips[0] if len(slips) == 1 else ""
+
+
+def _number(word: str, using: Tables) -> str:
+    """A number that is written as one word, with what may follow in the same word; an empty string for none."""
+    found = using.number.fullmatch(word)
+    if found is None or not any(found.groups()):
+        return ""
+    parts = found.groupdict()
+    value = sum(using.values[parts[name]] for name in ("one", "ten", "teen", "last") if parts[name])
+    for name, unit in (("hundreds", 100), ("thousands", 1000)):
+        if parts[name]:
+            value += unit * using.values.get(parts[name].removesuffix(parts[f"{name}_word"]), 1)
+    return (
+        using.suffixes[parts["suffix"]].format(n=value, half=value + 0.5) if parts["suffix"] else str(value)
+    )
+
+
+def _verb_first(clause: str, using: Tables) -> str:
+    """A clause whose verb stood last, with the verb behind the words that open a clause, or behind `can`, `must`."""
+    found = list(_MARKED.finditer(clause))
+    opened = using.openers.match(clause)
+    start = opened.end() if opened else 0
+    if len(found) != 1 or found[0].start() <= start:
+        return clause
+    verb = found[0]
+    modal = using.modals.search(clause, start, verb.start())
+    start = modal.end() if modal else start
+    to = "to " if clause[: verb.start()].endswith(" to ") else ""
+    between = clause[start : verb.start() - len(to)]
+    return f"{clause[:start].rstrip()} {to}{verb[1]} {between.strip()} {clause[verb.end() :].strip()} "
