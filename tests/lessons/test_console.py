@@ -7,7 +7,9 @@ import pytest
 from chatrobot.cli.console import commands
 from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lesson import ConsoleLesson
-from chatrobot.core.events import Interpreted, Result, Started
+from chatrobot.cli.recorder import _Tap
+from chatrobot.core.events import Event, Interpreted, Notice, Result, Started
+from chatrobot.core.reason import Reason
 from chatrobot.core.sensed_events import TruePose
 from chatrobot.lessons.run import LessonRun
 from tests.console.conftest import controller, log
@@ -59,6 +61,17 @@ def test_a_pasted_plan_counts_as_plan_text_and_a_sentence_does_not(
 def lesson_turn(log: list[tuple[str, ...]]) -> int:
     """The fake session numbers its turns by what it has noted so far."""
     return max(place for place, entry in enumerate(log, 1) if entry[0] in ("say", "say_plan"))
+
+
+def test_that_a_lesson_is_recorded_is_told_by_no_true_pose() -> None:
+    """It comes on the wire's thread, before there is a display: the wire would end, and nothing be judged."""
+    heard: list[Event] = []
+    tap = _Tap(heard.append)
+    tap.waiting.append(notice := Notice(0, Reason("recording", {"path": "run.mcap"})))
+    tap.hear(pose := TruePose(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    assert heard == [pose]
+    tap.hear(result := Result(1, "completed", "Done."))
+    assert heard == [pose, notice, result]
 
 
 def test_the_commands_of_a_lesson_are_those_of_a_lesson_alone(

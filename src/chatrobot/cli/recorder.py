@@ -16,6 +16,7 @@ from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
+from chatrobot.core.sensed_events import TruePose
 from chatrobot.language.phrases import render_reason
 from chatrobot.recording.shelf import MOST_BYTES, SUFFIX, check_new, make_folder, make_room, new_path, tidy
 from chatrobot.sim.robot import TRUTH_TOPIC
@@ -194,9 +195,10 @@ class _Tap:
         """Take an event in."""
         if self.recorder is not None:
             self.recorder.hear(event)
-            self.waiting += self.recorder.notices()
-        while self.waiting:
-            self._on_event(self.waiting.pop(0))
+        if not isinstance(event, TruePose):  # one comes on the wire's thread, and before there is a display
+            self.waiting += self.recorder.notices() if self.recorder is not None else ()
+            while self.waiting:
+                self._on_event(self.waiting.pop(0))
         self._on_event(event)
 
 
