@@ -6,19 +6,20 @@ from prompt_toolkit.document import Document
 
 import chatrobot
 from chatrobot.cli.console import commands
-from chatrobot.cli.console.completion import COMMON, ChatCompleter
+from chatrobot.cli.console.completion import ChatCompleter, phrases_of
 from chatrobot.cli.console.tables import place_in
 from chatrobot.cli.console.words import Words
 from chatrobot.core.geometry import Pose
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world
 
 HOME = load_world("home")
 
 
-def test_every_command_has_a_help_text_in_both_languages():
-    for language in ("en", "zh"):
+def test_every_command_has_a_help_text_in_every_language():
+    for language in REPLY_LANGUAGES:
         for command in commands.COMMANDS:
             assert Words(language).say(command.help_code)
 
@@ -60,8 +61,10 @@ def test_words_complete_on_tab_alone():
     assert completions("去厨") == [("厨房", -1)]
 
 
-@pytest.mark.parametrize("language", ["en", "zh"])
-@pytest.mark.parametrize("text", ["", "f", "c", "go to the ", "去", "go to the c", "forward 1 m, then t"])
+@pytest.mark.parametrize("language", REPLY_LANGUAGES)
+@pytest.mark.parametrize(
+    "text", ["", "f", "c", "go to the ", "去", "go to the c", "fahr zu ", "forward 1 m, then t"]
+)
 def test_tab_offers_each_thing_once(language, text):
     offered = [name for name, _ in completions(text, language=language)]
     assert len({name.casefold() for name in offered}) == len(offered) > 0
@@ -88,15 +91,18 @@ def test_within_a_sentence_only_what_is_understood_is_offered(text):
     assert "turn left" not in [name for name, _ in completions("drive to t")]
 
 
-@pytest.mark.parametrize("phrase", [phrase for phrases in COMMON.values() for phrase in phrases])
+@pytest.mark.parametrize("phrase", phrases_of(*REPLY_LANGUAGES))
 def test_every_phrase_that_tab_offers_is_understood(phrase):
     names = {"go to the": "kitchen", "去": "厨房", "remember this place as": "base", "记住这里叫": "基地"}
+    names |= {"fahr zu": "Küche", "merk dir diesen Ort als": "Basis"}
     with chatrobot.connect(fast=True) as robot:
         robot.do("forward 20 cm")
-        if phrase in ("redo", "重做"):
+        if phrase in ("redo", "重做", "wiederherstellen"):
             robot.do("undo")
         outcome = robot.do(f"{phrase} {names.get(phrase, '')}".strip()).outcome
-    assert outcome in ("completed", "answered") or (phrase in ("stop", "停") and outcome == "stopped")
+    assert outcome in ("completed", "answered") or (
+        phrase in ("stop", "停", "stopp") and outcome == "stopped"
+    )
 
 
 def test_what_a_command_takes_is_completed(tmp_path):

@@ -43,7 +43,7 @@ COMMANDS = {
     "completion": "what makes Tab complete in bash, zsh or fish",
 }
 SHELLS = ("bash", "zsh", "fish")
-LANGUAGES = ("en", "zh")
+LANGUAGES = ("en", "zh", "de")
 _NODES = ("node", "sim")
 _TALKS = ("", "do", "plan")
 """A conversation takes `--ros-args -p revChatGPT:=True` as the tutorial's base node does."""

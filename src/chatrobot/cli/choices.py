@@ -6,6 +6,7 @@ import argparse
 import sys
 from dataclasses import replace
 
+from chatrobot.cli.console.words import language_of_environment
 from chatrobot.cli.early import Early
 from chatrobot.cli.folders import config_folder
 from chatrobot.cli.parameters import parameters_in, read_parameters
@@ -52,7 +53,7 @@ def setup_from(
         budget=MotionBudget(args.max_distance, args.max_time),
         open_loop=args.open_loop,
         folder=config_folder(args),
-        options=replace(options, interpreter=args.interpreter),
+        options=replace(options, interpreter=args.interpreter, language=language_of_environment()),
         model=model_from(args, named=named_model),
         model_options=ModelOptions(
             rounds=args.rounds, budget_tokens=args.budget_tokens, budget_s=args.budget_s

@@ -80,7 +80,7 @@ class Conversation:
     def language(self) -> LanguageCode:
         """Of the last question."""
         if self._connection is None:
-            return "en"  # the first true poses come while it connects
+            return self._setup.options.language  # the first true poses come while it connects
         return self._connection.session.understanding.language
 
     # --- from any thread ---

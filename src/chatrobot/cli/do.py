@@ -41,7 +41,9 @@ def run(args: argparse.Namespace) -> int:
                 break
             if not (args.keep_going or may_follow(text, results)):
                 rest = args.texts[number:]
-                reason = Reason("turns_not_done", {"texts": quoted(rest), "count": len(rest)})
+                reason = Reason(
+                    "turns_not_done", {"texts": quoted(rest, conversation.language), "count": len(rest)}
+                )
                 conversation.show(Notice(0, reason))
                 break
             if len(args.texts) > 1 or plan_text:

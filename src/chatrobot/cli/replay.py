@@ -19,7 +19,7 @@ from chatrobot.cli.recorder import read_recording
 from chatrobot.cli.report.summary import words_in
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import InputError, UsageError
-from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.interpretation import LanguageCode, language_of_tags
 from chatrobot.recording.about import world_of
 from chatrobot.recording.playback import TELEMETRY_S, Heard, Shown, play, shown
 from chatrobot.recording.reader import Recording
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _language(recording: Recording) -> LanguageCode:
-    return "zh" if recording.meta.get("language") == "zh" else "en"
+    return language_of_tags(recording.meta.get("language", ""))
 
 
 def _in_json(output: Output) -> Show:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from chatrobot.dialogue.llm.requests import Interpreter
+from chatrobot.language.interpretation import LanguageCode
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,7 @@ class Options:
     but for a few seconds of the tutorial's form; `rehearse_only` moves nothing. Of programs,
     `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
     `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
+    `language`: the one to speak before anything was said.
     """
 
     while_moving: Literal["queue", "replace"] = "queue"
@@ -26,3 +28,4 @@ class Options:
     ask_findings: bool = True
     ask_new: bool = False
     interpreter: Interpreter = "auto"
+    language: LanguageCode = "en"

@@ -61,6 +61,7 @@ class Session:
     ) -> None:
         self._link = link
         self.understanding = understanding
+        understanding.language = options.language
         self._on_event = on_event
         self.on_said: Callable[[int, str], None] = lambda _, __: None
         """Hears, in the thread that says it, each text that was taken in, with the number of its turn."""

@@ -144,7 +144,8 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        return Context(dialogue, self._state, self.world_places, without_heading, self._names, self.ways.any)
+        known = (self.world_places, without_heading, self._names, self.ways.any)
+        return Context(dialogue, self._state, *known, self.language)
 
     def can_do(self, text: str) -> bool:
         """Return whether `text` would be driven if it were said now. From any thread: nothing is noted."""
@@ -225,9 +226,8 @@ class Understanding:
 
     def language_of(self, text: str) -> LanguageCode:
         """Return the language of `text`; of what was said last, where it has none."""
-        if not any(character.isalpha() for character in text):
-            return self.language
-        return language_of(text, self.language)
+        has_letters = any(map(str.isalpha, text))
+        return language_of(text, self.language) if has_letters else self.language
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """Note where the robot is. `is_ours`: a turn of ours moves it, or may."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.ledger import Ledger, TurnRecord
 from chatrobot.plan.steps import Plan
 
@@ -66,7 +67,8 @@ class Context:
 
     `world_places` are names the world's map knows, `place_names` the same put together, place by place;
     `places_without_heading` are those of them that it gives no heading. `ways` tells how long the way from one pose to
-    another is on the map, metres; None where there is no map.
+    another is on the map, metres; None where there is no map. `language` is that of what was said before;
+    None where only the turns tell it.
     """
 
     dialogue: Dialogue = field(default_factory=Dialogue)
@@ -75,6 +77,7 @@ class Context:
     places_without_heading: frozenset[str] = frozenset()
     place_names: tuple[tuple[str, ...], ...] = ()
     ways: Callable[[Pose, Pose], float | None] | None = None
+    language: LanguageCode | None = None
 
     @property
     def has_ways(self) -> bool:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.ledger import Walk
@@ -13,6 +14,7 @@ from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan, Step
 
 LanguageCode = Literal["en", "zh", "de"]
+_CODES: Mapping[str, LanguageCode] = {code: code for code in get_args(LanguageCode)}
 Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
 
 
@@ -46,6 +48,15 @@ class Interpretation:
     def is_about_turn_before(self) -> bool:
         """It undoes, does again or puts right, so that the turn before must have ended."""
         return self.walk is not None or self.corrects
+
+
+def language_of_tags(tags: str) -> LanguageCode:
+    """Return the first language of tags such as `de_AT.UTF-8` or `zh-CN,zh;q=0.9` that people are answered in.
+
+    English, where none is.
+    """
+    codes = (re.split(r"[-_.;@]", tag.strip())[0].casefold() for tag in tags.split(","))
+    return next((_CODES[code] for code in codes if code in _CODES), "en")
 
 
 def planned(

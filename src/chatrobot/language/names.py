@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 from chatrobot.language import forms
@@ -10,14 +9,8 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 from chatrobot.language.facts import unit_length_m
 from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
-from chatrobot.language.normalise import has_chinese, normalise
+from chatrobot.language.normalise import normalise
 from chatrobot.language.typos import edit_distance
-
-
-def by_language(names: Sequence[str], language: str) -> list[str]:
-    """The names of one place, those in that language first."""
-    return sorted(names, key=lambda name: has_chinese(name) != (language == "zh"))
-
 
 _SHORTEST_NAME, _LONG_NAME = 4, 8
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 
 from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, Reason, Value, number
@@ -45,9 +45,19 @@ class _TidyAngle(_Tidy):
     places = ANGLE_PLACES
 
 
+_NAMES = ("place", "obstacle")
+"""The values that are names of the world's."""
+
+
 class _Formatted(dict[str, Value]):
+    def __init__(self, values: Mapping[str, Value], language: str) -> None:
+        super().__init__(values)
+        self._language = language
+
     def __getitem__(self, key: str) -> Value:
         value = super().__getitem__(key)
+        if isinstance(value, str):
+            return by_language((value,), self._language)[0] if key in _NAMES else value
         if not isinstance(value, float):
             return value
         return _TidyAngle(value) if key.endswith("_deg") else _Tidy(value)
@@ -66,13 +76,20 @@ def say(language: str, code: str, **values: Value) -> str:
         listed = ", ".join(f"{name}={_shown(value)}" for name, value in values.items())
         return f"{code} ({listed})" if listed else code
     try:
-        return _MINUS_ZERO.sub("", typed(template).format_map(_Formatted(values)))
+        return _MINUS_ZERO.sub("", typed(template).format_map(_Formatted(values, language)))
     except (ValueError, TypeError):
         return template
 
 
 def _shown(value: Value) -> str:
     return number(value) if isinstance(value, float) else str(value)
+
+
+def by_language(names: Sequence[str], language: str) -> list[str]:
+    """The names of one place or thing, those in that language first; one of them may be in the language's table."""
+    known = load_table(language, "names")
+    ours = dict.fromkeys(known[name.casefold()] for name in names if name.casefold() in known)
+    return [*ours, *sorted(names, key=lambda name: has_chinese(name) != (language == "zh"))]
 
 
 def render_reason(reason: Reason, language: str) -> str:
@@ -89,7 +106,7 @@ def render_reason(reason: Reason, language: str) -> str:
             values[key] = names.get(values[key], values[key])
     if "obstacle_aliases" in values:
         names_of_it = (str(values["obstacle"]), *str(values["obstacle_aliases"]).split(", "))
-        values["obstacle"] = min(names_of_it, key=lambda name: has_chinese(name) != (language == "zh"))
+        values["obstacle"] = by_language(names_of_it, language)[0]
     special = (
         f"{reason.code}_{kind}" for key, kind in (("obstacle", "named"), ("namespace", "in")) if key in values
     )
@@ -150,7 +167,7 @@ def _go(step: Go, spoken: Callable[..., str]) -> str:
     if step.place and step.yaw_rad is not None:
         deg = number(math.degrees(step.yaw_rad), ANGLE_PLACES)
         return spoken("step_go_facing", place=step.place, deg=deg)
-    return spoken("step_go", place=step.place or point)
+    return spoken("step_go", place=spoken("the_place", place=step.place) if step.place else point)
 
 
 def _step(step: Step, language: str) -> str:

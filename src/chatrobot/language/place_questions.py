@@ -12,9 +12,8 @@ from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.names import by_language
 from chatrobot.language.normalise import normalise
-from chatrobot.language.phrases import say
+from chatrobot.language.phrases import by_language, say
 from chatrobot.language.questions import places_known, topic_of, unknown_pose
 from chatrobot.language.typos import edit_distance
 
@@ -122,7 +121,8 @@ def _may_be_a_place(named: str, language: str) -> bool:
 def _known(context: Context, language: str) -> dict[str, _Place]:
     """Every name that may be said: of the start, of the places of the world, of those the person named."""
     start = load_table(language, "places_asked")["start"]
-    found = {name: _Place(start[0], context.dialogue.start_pose) for name in start}
+    called = by_language(start[:1], language)[0]
+    found = {name: _Place(called, context.dialogue.start_pose) for name in start}
     groups = context.place_names or tuple((name,) for name in context.world_places)
     for names in groups:
         shown = by_language(names, language)[0]

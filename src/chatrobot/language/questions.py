@@ -10,8 +10,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
-from chatrobot.language.names import by_language
-from chatrobot.language.phrases import say
+from chatrobot.language.phrases import by_language, say
 from chatrobot.robots.profile import RobotProfile
 
 _LONGEST_COURTESY = 60

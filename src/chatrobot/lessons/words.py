@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from chatrobot.core.reason import Value
 from chatrobot.language.data_files import load_table
-from chatrobot.language.names import by_language
+from chatrobot.language.phrases import by_language
 from chatrobot.lessons.attempt import Values
 from chatrobot.lessons.checks import Finding
 from chatrobot.lessons.run import LessonRun, Verdict

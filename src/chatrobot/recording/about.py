@@ -25,7 +25,7 @@ def about_of(profile: RobotProfile, world: World, *, on: str, language: str = "e
 
     Args:
         on: how its wire is called.
-        language: of the last question, `en` or `zh`.
+        language: of the last question, `en`, `zh` or `de`.
     """
     wiring = profile.wiring
     return {

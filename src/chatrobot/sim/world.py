@@ -50,7 +50,7 @@ class World:
     """Obstacles and named places, in the frame of the start.
 
     `places` maps each place's main name to where a robot stands there. `aliases` maps every name a person may
-    say (English or Chinese, casefolded; the main names too) to a main name. `allowed_area` is the polygon the
+    say (casefolded; the main names too) to a main name. `allowed_area` is the polygon the
     robot is to stay in, if the world has one; it is a rule, not a wall: neither lidar nor collisions know it.
     `without_heading` are the main names of places whose file says nothing of how a robot looks there.
     `start` is where the robot begins in the axes of the world's file: maps are drawn along them.

@@ -3,34 +3,38 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 
 from prompt_toolkit.completion import CompleteEvent, Completer, Completion, PathCompleter
 from prompt_toolkit.document import Document
 
 from chatrobot.cli.console.commands import BY_NAME, COMMANDS, Command
 from chatrobot.cli.console.words import Words
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
+from chatrobot.language.detect import language_of
 from chatrobot.language.lexicon import cut, lexicon
-from chatrobot.language.names import by_language
-from chatrobot.language.normalise import has_chinese, normalise
+from chatrobot.language.normalise import normalise
+from chatrobot.language.phrases import by_language
 
-COMMON: Mapping[str, tuple[str, ...]] = {
-    "en": (
-        *("forward", "backward", "turn left", "turn right", "turn around", "go to the", "come back"),
-        *("drive in a square of one metre", "draw a circle", "face the other way", "remember this place as"),
-        *("stop", "undo", "redo", "again", "do that again faster", "do that again slower"),
-    ),
-    "zh": (
-        *("前进", "后退", "左转", "右转", "掉头", "去", "回来", "停", "再来一次", "撤销", "重做"),
-        *("走一个正方形", "画一个圆", "记住这里叫"),
-    ),
-}
-_OPEN_ENDED = ("go to the", "去", "remember this place as", "记住这里叫")
-"""What a name has to follow."""
 _WORD = re.compile(r"[\[|]([a-z]+)(?=[\]|])")
 _LONGEST_JOINT = 3
 """Units of what joins two clauses."""
 _PATHS = PathCompleter(expanduser=True)
+
+
+@cache
+def phrases_of(*languages: str) -> tuple[str, ...]:
+    """What one often says in these languages; what a name has to follow comes last."""
+    tables = [load_table(language, "completion") for language in languages]
+    return tuple(phrase for name in ("phrases", "before_name") for table in tables for phrase in table[name])
+
+
+@cache
+def _before_name() -> frozenset[str]:
+    return frozenset(
+        phrase for code in REPLY_LANGUAGES for phrase in load_table(code, "completion")["before_name"]
+    )
 
 
 class ChatCompleter(Completer):
@@ -86,8 +90,8 @@ class ChatCompleter(Completer):
     def _sayings(self, text: str) -> Iterable[Completion]:
         """Offer what is begun; where nothing is, what may follow. Of a place with several names, one of them."""
         is_empty = not text.strip()
-        language = "zh" if has_chinese(text) else self._words.language if is_empty else "en"
-        phrases = [(phrase,) for phrase in (COMMON[language] if is_empty else _EVERY_PHRASE)]
+        language = self._words.language if is_empty else language_of(text, self._words.language)
+        phrases = [(phrase,) for phrase in phrases_of(*((language,) if is_empty else REPLY_LANGUAGES))]
         places = [by_language(names, language) for names in self._places()]
         begun = [ending for names in (*phrases, *places) if (ending := _begun(text, names))]
         is_within_word = text[-1:].isascii() and text[-1:].isalnum()
@@ -101,13 +105,10 @@ class ChatCompleter(Completer):
         """Tell whether the whole is understood; within a sentence a phrase begins a clause."""
         if not before.strip():
             return True
-        if name in _EVERY_PHRASE and not ends_clause(before):
+        if name in phrases_of(*REPLY_LANGUAGES) and not ends_clause(before):
             return False
-        place = next((names[0] for names in self._places()), "") if name in _OPEN_ENDED else ""
+        place = next((names[0] for names in self._places()), "") if name in _before_name() else ""
         return self._can_do(f"{before}{name} {place}".strip())
-
-
-_EVERY_PHRASE = tuple(phrase for phrases in COMMON.values() for phrase in phrases)
 
 
 def _begun(text: str, names: Sequence[str]) -> tuple[str, int] | None:

@@ -252,7 +252,7 @@ class ChatController:
 
     def _tell_undone(self, texts: Sequence[str]) -> None:
         if texts:
-            self.tell("paste_undone", texts=quoted(texts))
+            self.tell("paste_undone", texts=quoted(texts, self.words.language))
 
     @property
     def _has_nothing_to_do(self) -> bool:

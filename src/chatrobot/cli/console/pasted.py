@@ -8,6 +8,7 @@ from textwrap import shorten
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Outcome
+from chatrobot.language.phrases import say
 from chatrobot.link.envelope import QUEUE_LIMIT
 from chatrobot.plan.text import parse_plan
 
@@ -83,9 +84,10 @@ def must_be_typed(command: str) -> str:
     return word if word in _TYPED_ALONE else ""
 
 
-def quoted(texts: Sequence[str]) -> str:
+def quoted(texts: Sequence[str], language: str) -> str:
     """Return the texts in quotation marks, each on one line and not too long."""
-    return ", ".join(f"“{shorten(text, _SHOWN_CHARS, placeholder=' …')}”" for text in texts)
+    shown = (shorten(text, _SHOWN_CHARS, placeholder=" …") for text in texts)
+    return say(language, "list_comma").join(say(language, "quoted", text=text) for text in shown)
 
 
 def is_plan(text: str) -> bool:

@@ -17,7 +17,7 @@ from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import Extent, Orientation, extent_around, extent_of_world
 from chatrobot.cli.drawing.map_text import MapText
 from chatrobot.language.context import Place
-from chatrobot.language.names import by_language
+from chatrobot.language.phrases import by_language
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 

@@ -9,14 +9,13 @@ from collections.abc import Mapping
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed
 from chatrobot.language.data_files import load_table
-from chatrobot.language.detect import language_of
-from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.interpretation import LanguageCode, language_of_tags
 
 _TABLE = "console"
 
 
 class Words:
-    """Says things. `language` is "en", "zh" or "de"; `follow` sets it to that of a question."""
+    """Says things. `follow` sets it to that of a question."""
 
     def __init__(self, language: LanguageCode = "en") -> None:
         self.language: LanguageCode = language
@@ -26,6 +25,8 @@ class Words:
         from chatrobot.cli.console.pasted import is_plan  # late: the list of words needs no plans
 
         if any(char.isalpha() for char in text) and not is_plan(text):
+            from chatrobot.language.detect import language_of  # the words are not needed to begin
+
             self.language = language_of(text, self.language)
 
     def say(self, code: str, **values: object) -> str:
@@ -44,6 +45,4 @@ def language_of_environment(environment: Mapping[str, str] = os.environ) -> Lang
     value = next(
         (environment[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environment.get(name)), ""
     )
-    if value.startswith("zh"):
-        return "zh"
-    return "de" if value.startswith("de") else "en"
+    return language_of_tags(value)

@@ -25,11 +25,11 @@ from chatrobot.core.events import (
 )
 from chatrobot.dialogue.replies import describe_end
 from chatrobot.language.detect import language_of
-from chatrobot.language.interpretation import LanguageCode
-from chatrobot.language.normalise import has_chinese
+from chatrobot.language.interpretation import LanguageCode, language_of_tags
+from chatrobot.language.phrases import by_language
 from chatrobot.recording.about import world_of
 from chatrobot.recording.reader import Recording
-from chatrobot.sim.world import EMPTY_WORLD, World
+from chatrobot.sim.world import EMPTY_WORLD, Obstacle, World
 from chatrobot.wire.messages import Odometry
 
 JUMP_M = 0.5
@@ -107,7 +107,7 @@ class Drive:
             world = world_of(self.recording.meta)
         except WorldError:
             return EMPTY_WORLD
-        return _in_chinese(world) if self.language == "zh" else world
+        return _in_language(world, self.language)
 
     @cached_property
     def footprint_m(self) -> Sequence[tuple[float, float]]:
@@ -252,29 +252,28 @@ def _as_result(finished: Finished, language: str) -> Result:
 
 def _language_of(recording: Recording) -> LanguageCode:
     """The language of most that was said; where nothing was, that of the person who began."""
-    begun: LanguageCode = "zh" if recording.meta.get("language") == "zh" else "en"
-    said = Counter(language_of(text) for _, text in recording.words)
-    most = [language for language, count in said.items() if 2 * count > said.total()]
-    return most[0] if most else "en" if said else begun
+    begun = language_of_tags(recording.meta.get("language", ""))
+    spoken = Counter(language_of(text, begun) for _, text in recording.words)
+    return max(spoken, key=lambda code: spoken[code], default=begun)
 
 
 def _is_near(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bool:
     return math.dist(a, b) < NEAR_M if a is not None and b is not None else a is b
 
 
-def _in_chinese(world: World) -> World:
-    """Give places and obstacles their Chinese names where they have one, or share one with a place."""
-    names = {name: next(filter(has_chinese, world.names_of(name)), name) for name in world.places}
-    by_folded = {name.casefold(): chinese for name, chinese in names.items()}
+def _in_language(world: World, language: LanguageCode) -> World:
+    """Give places, and what is called like one, their names in that language where they have one."""
+    names = {name: by_language(world.names_of(name), language)[0] for name in world.places}
+    by_folded = {name.casefold(): shown for name, shown in names.items()}
+
+    def shown_name(one: Obstacle) -> str:
+        shown = by_language((one.name, *one.aliases), language)[0]
+        return shown if shown != one.name else by_folded.get(one.name.casefold(), one.name)
+
     return replace(
         world,
         places={names[name]: pose for name, pose in world.places.items()},
-        obstacles=tuple(
-            replace(
-                one, name=next(filter(has_chinese, one.aliases), by_folded.get(one.name.casefold(), one.name))
-            )
-            for one in world.obstacles
-        ),
+        obstacles=tuple(replace(one, name=shown_name(one)) for one in world.obstacles),
     )
 
 

@@ -42,7 +42,7 @@ def make_page(drive: Drive, say: Say, amiss: str = "") -> str:
     figures = [*_map(drive, say), *_speeds(drive, say)]
     style = "".join((_asset("page.css"), SHAPES_STYLE, dark_style(), _shape_rule(drive)))
     script = _asset("page.js")
-    language = "zh-CN" if drive.language == "zh" else "en"
+    language = "zh-CN" if drive.language == "zh" else drive.language
     title = _text(say("page_title", robot=drive.title or say("robot_unknown")))
     policy = (
         f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}';"

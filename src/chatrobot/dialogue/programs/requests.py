@@ -28,7 +28,6 @@ from chatrobot.dialogue.programs.authoring import (
 )
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.phrases import render_reason
 from chatrobot.language.program_request import ProgramRequest
@@ -152,7 +151,7 @@ class ProgramRequests:
 
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
         """Take the turn if it is about a program; `name` is what it is to be called."""
-        language = language_of(text)
+        language = self._understanding.language_of(text)
         try:
             draft = None if is_asked_for else self.authoring.kept(text, language)
         except NotWrittenError as refusal:
