@@ -9,11 +9,14 @@ from pathlib import Path
 
 import pytest
 
+from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.consent import after_consent, read_consent
 from chatrobot.language.detect import language_of
 from chatrobot.language.gloss import gloss
 from chatrobot.language.gloss_tables import tables
 from chatrobot.plan.text import format_plan
+from chatrobot.robots.load import load_profile
+from chatrobot.sim.load import load_world
 from tests.language import ledger
 from tests.language.dialogue_runner import Conversation
 
@@ -142,3 +145,17 @@ def test_every_rule_of_the_gloss_is_a_pattern_that_some_text_may_match() -> None
     using = tables("de")
     for pattern, by in (*using.before, *using.rules, *using.after):
         assert pattern.groups >= max((int(n) for n in re.findall(r"\\(\d)", by)), default=0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Fahr nicht in die Küche", "Geh jetzt nicht zum Sofa!", "Fahr bloß nicht vor", "Roll nicht weiter",
+        "Robbi, fahr niemals in die Küche", "Dreh dich bitte nicht um", "Fahr auf keinen Fall zum Sofa",
+        "Komm nie zurück",
+    ],
+)  # fmt: skip
+def test_what_is_denied_behind_its_verb_moves_nothing(text: str) -> None:
+    understanding = Understanding(load_profile("wheeltec_mini_mec"), load_world("home"), None)
+    meant = understanding.interpret(text)
+    assert (meant.plan, meant.proposal) == (None, None), meant.reply

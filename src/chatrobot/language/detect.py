@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import compiled
-from chatrobot.language.gloss_tables import letters_of, words_of
+from chatrobot.language.gloss_tables import letters_of, shared_words, words_of
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import MAX_CHARACTERS, has_chinese
@@ -29,7 +29,9 @@ def language_of(text: str, before: LanguageCode = "en") -> LanguageCode:
 
 
 def spoken(text: str, context: Context) -> LanguageCode:
-    """The language of `text`; where it may be two, that of the turn before."""
+    """The language of `text`; where it may be two, that of what was said before."""
+    if context.language is not None:
+        return language_of(text, context.language)
     language: LanguageCode = "en"
     for turn in context.dialogue.turns:
         language = language_of(turn.text, language)
@@ -55,4 +57,4 @@ def _words() -> tuple[frozenset[str], frozenset[str], frozenset[str]]:
 
 def _sorted() -> tuple[frozenset[str], frozenset[str], frozenset[str]]:
     words, letters, english = words_of("de"), letters_of("de"), lexicon().known
-    return words - english, words & english, letters
+    return words - english, words & english | shared_words("de"), letters

@@ -16,6 +16,8 @@ VERB = "^"
 UNIT = re.compile(r"\d+(?:\.\d+)?|[^\W\d_]+(?:'[a-z]+)?|\n|[^\s\w]+?|\S")
 _WRITTEN_OUT = ("words", "verbs", "names", "prefixes", "inverted")
 """The parts of the file that become single words and phrases."""
+_ADJECTIVE = re.compile(r"^([a-z]\w*?)(?:er|es|e)(?= )")
+"""The first word of a place's name where it begins with a small letter: its ending changes."""
 
 Key = tuple[str, ...]
 Rules = tuple[tuple[re.Pattern[str], str], ...]
@@ -77,6 +79,11 @@ def words_of(language: str) -> frozenset[str]:
     return frozenset(known | set(tables(language).values)) - names
 
 
+def shared_words(language: str) -> frozenset[str]:
+    """Every single word that is the same in English, such as “ok”: it tells no language."""
+    return frozenset(key[0] for key, word in _compiled(language)[0].items() if (word,) == key)
+
+
 def letters_of(language: str) -> frozenset[str]:
     """The letters that are folded."""
     return frozenset(map(chr, _folds(language)))
@@ -98,10 +105,14 @@ def _any_of(words: Iterable[str]) -> str:
 
 @cache
 def _compiled(language: str) -> tuple[dict[Key, str], dict[str, Any], frozenset[str]]:
-    return compiled(f"gloss-{language}", lambda: _parts(load_table(language, "gloss")))
+    return compiled(
+        f"gloss-{language}", lambda: _parts(load_table(language, "gloss"), load_table(language, "names"))
+    )
 
 
-def _parts(table: Mapping[str, Any]) -> tuple[dict[Key, str], dict[str, Any], frozenset[str]]:
+def _parts(
+    table: Mapping[str, Any], places: Mapping[str, str]
+) -> tuple[dict[Key, str], dict[str, Any], frozenset[str]]:
     """What each word or phrase becomes, the listed and the forms of the verbs; the rest as it stands; names."""
     folds = {ord(letter): by for letter, by in table["folds"].items()}
     words: dict[Key, str] = {}
@@ -109,6 +120,9 @@ def _parts(table: Mapping[str, Any]) -> tuple[dict[Key, str], dict[str, Any], fr
     def add(written: str, english: str) -> None:
         words.setdefault(tuple(UNIT.findall(written.lower().translate(folds))), english)
 
+    for english, name in places.items():
+        for written in expand(_ADJECTIVE.sub(r"\1{e,en,er,es,em}", name)):
+            add(written, english)
     for listed in (*table["words"].values(), table["names"]):
         for english, patterns in listed.items():
             for written in itertools.chain.from_iterable(map(expand, patterns)):

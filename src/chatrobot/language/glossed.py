@@ -48,7 +48,7 @@ def in_known_words(text: str, context: Context) -> tuple[LanguageCode, str]:
 def _context_in_known_words(context: Context) -> Context:
     """The context with what was said before in words that the reader knows."""
     dialogue, turns = context.dialogue, []
-    language: LanguageCode = "en"
+    language: LanguageCode = context.language or "en"
     for turn in dialogue.turns:
         language = language_of(turn.text, language)
         turns.append(turn if language in LANGUAGES else replace(turn, text=_known(turn.text, language)))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from chatrobot.core.reason import Reason
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 from chatrobot.language.normalise import normalise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist, Repeat, Step
@@ -62,7 +62,7 @@ def _tables() -> tuple[_Tables, ...]:
     def compiled(table: dict[str, str]) -> Patterns:
         return {name: re.compile(pattern, re.S | re.I) for name, pattern in table.items()}
 
-    loaded = [load_table(language, "programs") for language in LANGUAGES]
+    loaded = [load_table(language, "programs") for language in REPLY_LANGUAGES]
     return tuple(
         _Tables(compiled(t["patterns"]), compiled(t["wording"]), compiled(t["names"]), dict(t["plain"]))
         for t in loaded

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from functools import cache
 
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 from chatrobot.language.normalise import normalise
 
 _PUNCTUATION = re.compile(r"[\s,.!?;:、。！？，；…]+")
@@ -18,7 +18,7 @@ def wants_to_resume(text: str, *, may_mean_more: bool = True) -> bool:
     Args:
         may_mean_more: count words that ask for more of the motion before where nothing was paused or stopped.
     """
-    return any(_says_to_resume(language, may_mean_more)(text) for language in LANGUAGES)
+    return any(_says_to_resume(language, may_mean_more)(text) for language in REPLY_LANGUAGES)
 
 
 @cache
