@@ -72,22 +72,36 @@ def test_a_browser_in_chinese_gets_a_chinese_page_that_can_be_switched(rig: WebR
     expect(page.get_by_role("button", name="停止", exact=True)).to_be_visible()
     expect(page.get_by_role("button", name="急停", exact=True)).to_be_visible()
     assert page.locator("html").get_attribute("lang") == "zh-Hans"
+    page.locator("#language").click()
     page.get_by_role("button", name="English").click()
     expect(page.get_by_role("button", name="Stop", exact=True)).to_be_visible()
+    page.locator("#language").click()
+    page.get_by_role("button", name="Deutsch").click()
+    expect(page.get_by_role("button", name="Not-Halt", exact=True)).to_be_visible()
+    assert page.locator("html").get_attribute("lang") == "de"
     page.context.close()
 
 
-@pytest.mark.parametrize("size", [PHONE, TABLET, (844, 390), (320, 640)])
+@pytest.mark.parametrize(
+    ("size", "locale"),
+    [
+        (PHONE, "en-GB"),
+        (TABLET, "en-GB"),
+        ((844, 390), "de-AT"),
+        ((320, 640), "en-GB"),
+        ((320, 640), "de-AT"),
+    ],
+)
 def test_small_screens_hold_everything_and_always_the_stop(
-    rig: WebRig, browser: Browser, size: tuple[int, int]
+    rig: WebRig, browser: Browser, size: tuple[int, int], locale: str
 ) -> None:
-    page = open_page(browser, rig.origin, size)
-    stop = page.get_by_role("button", name="Stop", exact=True)
+    page = open_page(browser, rig.origin, size, locale=locale)
+    stop = page.locator("#stop")
     expect(stop).to_be_in_viewport(ratio=1)
-    expect(page.get_by_role("button", name="Emergency stop", exact=True)).to_be_in_viewport(ratio=1)
+    expect(page.locator("#emergency")).to_be_in_viewport(ratio=1)
     assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
     if page.locator(".tabs").is_visible():
-        page.get_by_role("button", name="Drive", exact=True).click()
+        page.locator(".tabs [data-tab=drive]").click()
         expect(page.locator("#pad")).to_be_in_viewport()
         expect(stop).to_be_in_viewport(ratio=1)
     page.context.close()
@@ -126,7 +140,7 @@ def test_the_keyboard_alone_gets_everywhere_and_every_focus_is_seen(page: Page, 
 
 
 @pytest.mark.parametrize(
-    ("size", "locale", "dark"), [(DESKTOP, "en-GB", False), (DESKTOP, "en-GB", True), (PHONE, "zh-CN", True)]
+    ("size", "locale", "dark"), [(DESKTOP, "en-GB", False), (DESKTOP, "de-DE", True), (PHONE, "zh-CN", True)]
 )
 def test_axe_finds_nothing(
     rig: WebRig, browser: Browser, size: tuple[int, int], locale: str, dark: bool

@@ -17,6 +17,7 @@ from starlette.websockets import WebSocket
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Interpreted, Result, Telemetry
 from chatrobot.dialogue.pump import Pump
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.lessons.run import LessonRun
 from chatrobot.lessons.sheet import Sheet
@@ -294,7 +295,7 @@ FIELDS: Fields = {
     "revoke": {"room": _ROOM},
     "record": {"room": _ROOM},
     "move_to": {"number": lambda value: type(value) is int and value >= 1},
-    "language": {"code": lambda value: value in ("en", "zh")},
+    "language": {"code": lambda value: value in REPLY_LANGUAGES},
 }
 """What a teacher's page may say; without a room it is about all of them."""
 

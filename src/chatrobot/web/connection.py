@@ -12,7 +12,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
-from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.interpretation import LanguageCode, language_of_tags
 from chatrobot.reflex import is_release
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
@@ -42,7 +42,7 @@ class Page:
         self.id = f"page-{next(_numbers)}"
         self.pass_ = pass_
         wants = websocket.headers.get("accept-language", "")
-        self.language: LanguageCode = "zh" if wants.casefold().startswith("zh") else "en"
+        self.language: LanguageCode = language_of_tags(wants)
         agent = websocket.headers.get("user-agent", "")
         browser = next((name for mark, name in _BROWSERS if mark in agent), "page")
         number, code = self.id.partition("-")[2], "teacher_name" if pass_.role == "teacher" else "page_name"

@@ -8,11 +8,13 @@ from __future__ import annotations
 import base64
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from chatrobot.dialogue.llm.camera import Camera
 from chatrobot.language.context import Place
+from chatrobot.language.data_files import REPLY_LANGUAGES
+from chatrobot.language.phrases import by_language
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.shapes import Circle
 from chatrobot.sim.world import Obstacle, World
@@ -68,10 +70,13 @@ def place_facts(world: World, remembered: Mapping[str, Place]) -> list[dict[str,
     """Return every place that can be gone to by its name: the world's, and what a person had remembered."""
     known = dict(world.places)
     known.update({name: place.pose for name, place in remembered.items() if place.usable})
-    return [
-        {"name": name, "names": list(world.names_of(name)) if name in world.places else [name], **_pose(pose)}
-        for name, pose in known.items()
-    ]
+    named = {name: world.names_of(name) if name in world.places else (name,) for name in known}
+    return [{"name": name, **_called(named[name]), **_pose(pose)} for name, pose in known.items()]
+
+
+def _called(names: Sequence[str]) -> dict[str, Any]:
+    """All names of a place or thing, and what a page calls it, by language."""
+    return {"names": list(names), "called": {code: by_language(names, code)[0] for code in REPLY_LANGUAGES}}
 
 
 def _pose(pose: Any) -> dict[str, float]:
@@ -80,7 +85,8 @@ def _pose(pose: Any) -> dict[str, float]:
 
 def _obstacle(obstacle: Obstacle) -> dict[str, Any]:
     shape = obstacle.shape
-    about = {"name": obstacle.name, "names": [obstacle.name, *obstacle.aliases], "added": obstacle.is_added}
+    called = _called((obstacle.name, *obstacle.aliases))
+    about = {"name": obstacle.name, **called, "added": obstacle.is_added}
     if isinstance(shape, Circle):
         circle = {"x_m": shape.x_m, "y_m": shape.y_m, "radius_m": shape.radius_m}
         return {

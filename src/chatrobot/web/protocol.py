@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 
 MOST_BYTES = 64 * 1024
@@ -73,7 +74,7 @@ FIELDS: Fields = {
     "program": {"name": _NAME},
     "run_program": {"name": _NAME},
     "edit_program": {"name": _NAME, "source": is_text(MAX_SOURCE_CHARS)},
-    "language": {"code": lambda value: value in ("en", "zh")},
+    "language": {"code": lambda value: value in REPLY_LANGUAGES},
     "history": {},
     "look": {},
 }

@@ -14,7 +14,7 @@ import { startSayBox } from "./say_box.js";
 import { startSpeech } from "./speech.js";
 import { startSteering } from "./steering.js";
 import { startStick } from "./stick.js";
-import { firstLanguage, language, onLanguage, setLanguage, t } from "./words.js";
+import { firstLanguage, language, onLanguage, setLanguage, startLanguageMenu } from "./words.js";
 
 /** On a narrow screen one panel is seen at a time, under the map. */
 function showTab(name) {
@@ -26,11 +26,8 @@ function showTab(name) {
 }
 
 function startLanguage() {
-  const button = byId("language");
-  button.addEventListener("click", () => setLanguage(language() === "en" ? "zh" : "en"));
+  startLanguageMenu();
   onLanguage((code) => {
-    button.textContent = t("other_language");
-    button.lang = code === "en" ? "zh-Hans" : "en";
     if (send({ do: "language", code })) send({ do: "history" });
   });
   on("open", () => {

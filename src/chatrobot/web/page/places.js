@@ -4,17 +4,14 @@ import { on, send, state } from "./connection.js";
 import { byId, make, makeButton } from "./dom.js";
 import { language, onLanguage } from "./words.js";
 
-const CHINESE = /[一-鿿]/;
-
-/** Return what a place is called: a Chinese name of its names where the page is Chinese and there is one. */
+/** Return what a place is called in the page's language. */
 export function placeName(place) {
-  const isChinese = language() === "zh";
-  return (place.names || []).find((name) => CHINESE.test(name) === isChinese) || place.name;
+  return place.called?.[language()] ?? place.name;
 }
 
 /** Return what an obstacle is called: by its own names, else as the place of that name is. */
 export function obstacleName(obstacle, places) {
-  if (obstacle.names && obstacle.names.length > 1) return placeName(obstacle);
+  if (obstacle.names?.length > 1 || placeName(obstacle) !== obstacle.name) return placeName(obstacle);
   const name = obstacle.name.toLowerCase();
   const place = places.find((one) => (one.names || [one.name]).includes(name));
   return place ? placeName(place) : obstacle.name;

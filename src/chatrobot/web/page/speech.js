@@ -5,8 +5,8 @@ import { fillBox, sendBox } from "./say_box.js";
 import { notice } from "./steering.js";
 import { language, t } from "./words.js";
 
-const CODES = { en: "en-US", zh: "zh-CN" };
-const STOPS = /^\s*(stop|halt|停|停下|停止|急停)/i;
+const CODES = { en: "en-US", zh: "zh-CN", de: "de-DE" };
+const STOPS = /^\s*(stop|halt|anhalten|停|停下|停止|急停)/i;
 
 const microphone = byId("microphone");
 const note = byId("microphone-note");

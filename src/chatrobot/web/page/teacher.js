@@ -4,7 +4,7 @@ import { connect, on, send } from "./connection.js";
 import { byId, make, makeButton, setBanner, setText } from "./dom.js";
 import { showRecordings, startRecordings } from "./recordings.js";
 import { onStop } from "./stop.js";
-import { firstLanguage, language, onLanguage, setLanguage, t } from "./words.js";
+import { firstLanguage, language, onLanguage, setLanguage, startLanguageMenu, t } from "./words.js";
 
 const NOTICE_MS = 6000;
 const SAID_MS = 2500;
@@ -165,13 +165,11 @@ on("refused", (message) => notice(message.text));
 on("closed", () => setBanner(byId("connection-banner"), t("no_connection")));
 on("denied", (message) => setBanner(byId("connection-banner"), t(message.status === 429 ? "denied_wait" : "denied")));
 onStop(hearStop);
+startLanguageMenu();
 onLanguage((code) => {
-  byId("language").textContent = t("other_language");
-  byId("language").lang = code === "en" ? "zh-Hans" : "en";
   send({ do: "language", code });
   draw();
 });
-byId("language").addEventListener("click", () => setLanguage(language() === "en" ? "zh" : "en"));
 byId("release").addEventListener("click", () => send({ do: "release" }));
 byId("task-form").addEventListener("submit", (event) => {
   event.preventDefault();

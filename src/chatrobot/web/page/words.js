@@ -1,7 +1,14 @@
-/** The page's own words, English and Chinese. Sentences about the robot come from the server, in the same language. */
+/** The page's own words, a file for each language. Sentences about the robot come from the server, in the same language. */
+
+import { byId, make, makeButton } from "./dom.js";
 
 const STORED = "chatrobot-language";
-const CODES = ["en", "zh"];
+/** Each language by its own name, and the tag that a browser knows it by. */
+const LANGUAGES = {
+  en: ["English", "en"],
+  zh: ["中文", "zh-Hans"],
+  de: ["Deutsch", "de"],
+};
 
 let words = {};
 let code = "en";
@@ -14,11 +21,11 @@ export function language() {
 /** The language to begin with: the one chosen last, else the browser's. */
 export function firstLanguage() {
   const chosen = stored();
-  return CODES.includes(chosen) ? chosen : browserLanguage();
+  return chosen in LANGUAGES ? chosen : browserLanguage();
 }
 
 function browserLanguage() {
-  return navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en";
+  return navigator.languages.map((tag) => tag.toLowerCase().split("-")[0]).find((one) => one in LANGUAGES) ?? "en";
 }
 
 /** The page's words for `key`, with `{name}` filled in. */
@@ -38,7 +45,7 @@ export async function setLanguage(wanted) {
   words = await answer.json();
   code = wanted;
   store(wanted);
-  document.documentElement.lang = wanted === "zh" ? "zh-Hans" : "en";
+  document.documentElement.lang = LANGUAGES[wanted][1];
   for (const element of document.querySelectorAll("[data-t]")) element.textContent = t(element.dataset.t);
   for (const element of document.querySelectorAll("[data-t-label]")) {
     element.setAttribute("aria-label", t(element.dataset.tLabel));
@@ -48,6 +55,23 @@ export async function setLanguage(wanted) {
     element.placeholder = t(element.dataset.tPlaceholder);
   }
   for (const listener of listeners) listener(wanted);
+}
+
+/** Fill the menu in which a person chooses another language. */
+export function startLanguageMenu() {
+  onLanguage((chosen) => {
+    byId("language").textContent = LANGUAGES[chosen][0];
+    const others = Object.entries(LANGUAGES).filter(([one]) => one !== chosen);
+    byId("languages").replaceChildren(...others.map(([one, [name, tag]]) => {
+      const button = makeButton(name, "small quiet", () => {
+        byId("language").parentElement.open = false;
+        setLanguage(one);
+        byId("language").focus();
+      });
+      button.lang = tag;
+      return make("li", "", button);
+    }));
+  });
 }
 
 function stored() {
