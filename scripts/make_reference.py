@@ -48,7 +48,7 @@ VARIABLES = {
     "CHATROBOT_PEERS": "with `--on dds`: addresses to look for robots at, where there is no multicast; comma between",
     "CHATROBOT_DEBUG": "any value: an unexpected error shows its traceback",
     "ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE": "as in ROS 2; with `--on dds` the range is LOCALHOST by default",
-    "LC_ALL, LC_MESSAGES, LANG": "the language of the console: English or Chinese",
+    "LC_ALL, LC_MESSAGES, LANG": "the language that the console begins in: English, Chinese or German",
     "NO_COLOR": "the console prints plain lines",
 }
 
