@@ -22,7 +22,7 @@ from chatrobot.compose import Setup, connect
 from chatrobot.core.clock import VirtualClock
 from chatrobot.core.events import Event, Finished, Result
 from chatrobot.core.reason import Reason
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.models.fake import openai
@@ -189,7 +189,7 @@ def _why_literals() -> Iterator[str]:
 def test_every_cause_of_our_own_has_words_in_every_language() -> None:
     causes = {why for why in _why_literals() if why and not why.startswith("/")}
     assert {"nobody reads", "chatrobot broke", "operator lost"} <= causes
-    for language in LANGUAGES:
+    for language in REPLY_LANGUAGES:
         words = load_table(language, "causes")["stops"]
         assert causes <= set(words), f"{language} has no words for {sorted(causes - set(words))}"
 
