@@ -27,7 +27,7 @@ else:
     import tomli as tomllib
 from tests.language import ledger
 from tests.language.dialogue_runner import Conversation, run_item
-from tests.language.test_sayings_zh import sayings
+from tests.language.test_sayings import sayings
 
 from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.language import interpreter
@@ -128,7 +128,7 @@ def is_set(meant: Interpretation) -> bool:
 
 def said_in_tests() -> Iterator[Example]:
     """Sayings that are done rightly, and the strings of tests that move or must not."""
-    for item in sayings():
+    for item in sayings("zh"):
         if run_item(item)[0] == "correct" and "answer" not in item["expect"]:
             yield from _of_dialogue(item["turns"], "sayings")
     kept = ledger.kept()

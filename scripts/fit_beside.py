@@ -17,7 +17,7 @@ from unittest import mock
 import numpy as np
 from scripts.fit_acts import CORPUS
 from tests.language.dialogue_runner import Conversation
-from tests.language.test_sayings_zh import sayings
+from tests.language.test_sayings import sayings
 
 from chatrobot.cli.eval.corpus import load_corpus
 from chatrobot.language import beside
@@ -98,7 +98,7 @@ def of_corpora() -> Iterator[Example]:
                 continue
             if len(item.turns) == 1 and (file.stem.endswith(LANGUAGES) or file.parent.name == "everyday"):
                 yield from of_order(item.turns[0].say, file.stem)
-    for saying in sayings():
+    for saying in sayings("zh"):
         if len(saying["turns"]) == 1:
             yield from of_order(saying["turns"][0], "sayings")
 

@@ -87,7 +87,8 @@ def of_corpus(file: Path) -> list[Text]:
 
 
 def _of_sayings() -> Iterator[Text]:
-    for line in (HERE / "sayings_zh.txt").read_text(encoding="utf-8").splitlines():
+    files = sorted(HERE.glob("sayings_*.txt"))
+    for line in (line for file in files for line in file.read_text(encoding="utf-8").splitlines()):
         if line and not line.startswith("#"):
             yield Text(tuple(line.split(" | ")[1].strip().split(" || ")))
 

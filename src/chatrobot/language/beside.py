@@ -12,6 +12,7 @@ from functools import lru_cache
 
 from chatrobot.language.acts import Read
 from chatrobot.language.data_files import DATA
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.signs import Clause, is_strong
 
 SLOTS = 1 << 15
@@ -25,6 +26,8 @@ SURE_WITH_MOTION = 3.0
 """The first, for a clause with a word of motion that could be said of the order."""
 NO_ASIDE = -3.0
 """A clause with lower odds is no aside, whatever else it sounds like: what is ordered beside it is proposed."""
+_REFERENCES = ((("flag", "again"),), (("flag", "other_way"),), (("verb", "undo"),))
+_POLITE = frozenset({"please", "opening", "robot", "request"})
 _BOUND = frozenset({"condition", "later"})
 _NO_AMOUNTS = frozenset({"VERB", "DIR", "PLACE", "COUNTER", "FLAG"})
 
@@ -43,6 +46,14 @@ def is_sure_aside(clause: Clause, odds: Mapping[int, float]) -> bool:
     moving = {sign.label for sign in clause.signs if sign.moves and sign.label.isupper()}
     least = SURE_WITH_MOTION if clause.tells else SURE_ASIDE
     return moving <= _NO_AMOUNTS and odds.get(clause.start, least - 1.0) >= least
+
+
+def refers(clause: Clause) -> bool:
+    """Whether a clause asks for the motion before and nothing else: `undo that`, `once more please`."""
+    known = lexicon().words
+    said = [known.get(tuple(sign.text.split("_"))) for sign in clause.signs if sign.moves]
+    beside = {sign.label for sign in clause.signs if not sign.moves}
+    return bool(said) and all(meaning in _REFERENCES for meaning in said) and beside <= _POLITE
 
 
 def are_asides(reads: Sequence[Read], left_out: Sequence[Read]) -> bool:

@@ -16,8 +16,10 @@ from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "nah", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
 _SLIPS = _NO | {"actually", "well actually", "damn", "dang", "argh", "pardon", "excuse me", "apologies", "my apologies",
-                "whoopsie", "ehm"}  # fmt: skip
+                "whoopsie", "ehm", "er", "erm", "uh", "um"}  # fmt: skip
 """What stands between an amount and the one that was meant."""
+_WAIT = [("sep", ","), ("verb", "wait"), ("sep", ",")]
+"""`1 m, wait, 2 m`: to stand still between them, or a slip?"""
 _ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不是", "应该是"})
 """Corrections only after something in the same sentence."""
 _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
@@ -42,6 +44,8 @@ def with_slips(atoms: Sequence[Atom]) -> list[Atom]:
     for first, second in itertools.pairwise(amounts):
         same = atoms[first].value in (atoms[second].value, "number")
         between = range(first + 1, second)
+        if same and [(atoms[i].kind, atoms[i].text) for i in between] == _WAIT:
+            raise Unclear("unclear_motion", f"{atoms[first].text}, wait, {atoms[second].text}")
         slips = [i for i in between if atoms[i].text in _SLIPS and atoms[i].kind != "verb"]
         alone = all(atoms[i].kind in ("sep", "filler") for i in between if i not in slips)
         if same and slips and alone:

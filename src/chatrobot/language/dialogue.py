@@ -8,6 +8,7 @@ from dataclasses import replace
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
+from chatrobot.language.inverse import inverse
 from chatrobot.language.last_motion import steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
@@ -15,8 +16,8 @@ from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import PACES, Walked, all_taken_back, last_two, redone, undone
-from chatrobot.plan.steps import Face, Go, Step
+from chatrobot.language.undo import NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
+from chatrobot.plan.steps import Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -53,6 +54,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
+        if "to_start" not in whole.flags and _only_turned(context):
+            return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
         return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
     more = _more_of_before(whole, context, pace)
     if more is not None:
@@ -64,6 +67,15 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(context.dialogue.last_motion), whole, pace)
     return None
+
+
+def _only_turned(context: Context) -> bool:
+    """Whether the last motion turned on the spot where it all began: there `and back` is a turn."""
+    last = context.dialogue.last_motion
+    turned = (
+        last is not None and last.plan and all(isinstance(step, (Turn, Wait)) for step in last.plan.steps)
+    )
+    return bool(turned) and context.state.pose.distance_to(context.dialogue.start_pose) <= NEAR_M
 
 
 def walked(frames: Sequence[Frame], context: Context, pace: Pace) -> Walked | None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.language.arithmetic import is_another, sign_of
-from chatrobot.language.frames import GO, TURN
+from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
@@ -40,7 +40,8 @@ SCALES, _SIZES = ("scale", "fold"), ("length", "angle", "turns", "time", "speed"
 @dataclass
 class Edit:
     """What is said of the motion before. `instead` is what stood in place of the amount before it; with `sign` below
-    zero the amount is so much less. `goes_on`: an `and` joins it to what was done."""
+    zero the amount is so much less. `goes_on`: an `and` joins it to what was done. `returns`: back to the side `way`.
+    """
 
     flags: set[str] = field(default_factory=set)
     kinds: list[type[Step]] = field(default_factory=list)
@@ -53,6 +54,7 @@ class Edit:
     slides: bool = False
     is_named: bool = False
     sign: float = 1.0
+    returns: bool = False
 
     def amount(self, *names: str) -> Atom | None:
         return next((atom for atom in self.amounts if atom.value in names), None)
@@ -89,6 +91,8 @@ def read_edit(atoms: Sequence[Atom]) -> Edit | None:
             edit.slides |= atom.value == "slide"
         elif atom.kind in ("dir", "rot") and edit.way in ("", atom.value) and not _is_apart(atoms, i):
             edit.way = atom.value
+        elif atom.kind == "dir" and edit.way == "back" and atom.value in SIDES:
+            edit.way, edit.returns = atom.value, True
         elif atom.kind == "role" or (atom.kind == "counter" and atom.value == "side"):
             edit.roles.add(atom.value)
         elif atom.kind == "nth":
@@ -121,4 +125,4 @@ def _is_one(atom: Atom) -> bool:
 
 def _is_told(atoms: Sequence[Atom]) -> bool:
     """Whether a bare number may be the one that is to stand for another, or belong to `the two distances`."""
-    return any(atom.kind == "negation" or atom.value == "amounts" for atom in atoms)
+    return any(atom.kind == "negation" or atom.value in ("amounts", "overshot") for atom in atoms)

@@ -14,7 +14,9 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import inverse
+from chatrobot.language.last_motion import said_unit_m
 from chatrobot.language.meant import is_correction
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
@@ -37,8 +39,40 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     last = dialogue.last_motion
     if last is None or last.plan is None or is_correction(last):
         return None
-    edit = read_edit(atoms)
-    return _applied(edit, list(last.plan.steps)) if edit is not None else None
+    edit, steps = read_edit(atoms), list(last.plan.steps)
+    if edit is None:
+        return None
+    aslant = {f"back_{side}": side for side in SIDES if _came_from(steps, side)}
+    if edit.way in aslant:  # `slide back right`, after a slide to the left
+        edit.way, edit.returns = aslant[edit.way], True
+    elif edit.way.startswith("back_") and "same_amount" in edit.flags:
+        raise Unclear("which_way")
+    if edit.returns and not _came_from(steps, edit.way):
+        if "same_amount" not in edit.flags or any(is_chinese(atom.text) for atom in atoms):
+            return None
+        raise Unclear("which_way")  # `back right`: aslant, or back to the right?
+    if "overshot" in edit.flags:
+        if edit.way and edit.amount("number"):
+            return None
+        edit.amounts = [_in_unit_before(amount, steps[-1], last.text) for amount in edit.amounts]
+    return _applied(edit, steps)
+
+
+def _came_from(steps: list[Step], side: str) -> bool:
+    """Whether the motion went to the other side, so that it goes back to this one."""
+    [step] = steps if len(steps) == 1 else [None]
+    if isinstance(step, Turn):
+        return step.left != (side == "left")
+    return step is not None and _is_sideways(step) and _heads_left(step) != (side == "left")
+
+
+def _in_unit_before(amount: Atom, step: Step, said: str) -> Atom:
+    """`10 too many`: degrees after a turn, else the unit of the drive."""
+    unit_m = said_unit_m(said) if isinstance(step, Drive) else None
+    if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
+        return amount
+    name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
+    return quantity(name, amount.number * factor, amount.text)
 
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
@@ -60,13 +94,13 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if "first" in flags:
         return _reordered(steps, edit)
     if edit.way in SIDES and not (flags - {"again", "instead"} or edit.amounts or edit.roles or edit.nth):
-        is_named = "again" in flags or (edit.is_named and not edit.kinds)
+        is_named = "again" in flags or edit.returns or (edit.is_named and not edit.kinds)
         if is_named or not edit.kinds:
             return _to_side(steps, edit.way == "left", is_named=is_named, goes_on=edit.goes_on)
         return None
     points_back = edit.way == "back" and bool(scale or edit.slides or edit.amount("angle"))
     if flags & {"same_amount", "overshot"} or points_back:
-        return _one_way(edit, steps, scale)
+        return _at_its_pace(edit, steps, scale)
     if edit.instead is not None and "again" in flags:
         return _replaced(steps, edit.amounts[0], edit.instead)
     if scale is not None and "amounts" in flags:
@@ -77,6 +111,14 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if not ("again" in flags or measured) or flags - {"again", "instead", "all", "each"} or scale is not None:
         return None
     return resized(steps, edit) if edit.amounts and not edit.way else None
+
+
+def _at_its_pace(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | None:
+    """`The same distance back at 0.1 m/s`: how far, then how fast."""
+    how = [amount for amount in edit.amounts if amount.value in ("speed", "rate")]
+    sizes = [amount for amount in edit.amounts if amount not in how]
+    found = _one_way(dataclasses.replace(edit, amounts=sizes), steps, scale)
+    return resized(found, Edit(amounts=how)) if found and how else found
 
 
 def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | None:
@@ -97,7 +139,7 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         [step] = inverse([step])
     if size is not None and ("overshot" in edit.flags or edit.slides or edit.way == "back"):
         return [_with_value(step, size.number)] if _takes(step, size) else None
-    if "overshot" in edit.flags or edit.slides:
+    if "overshot" in edit.flags or (edit.slides and edit.way != "back"):
         return None
     return [_scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
 

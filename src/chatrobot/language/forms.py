@@ -57,6 +57,23 @@ def read_place(clause: str, language: str) -> str | None:
     return None
 
 
+def read_place_told(text: str, language: str) -> str | None:
+    """The name that a whole text gives to where the robot stands, over more than one clause; None if it gives none."""
+    plain = text.strip(" ,.!;:。")
+    for pattern in _told(language):
+        found = pattern.fullmatch(plain)
+        name = _trimmed(found["name"], language) if found else ""
+        if name:
+            return name
+    return None
+
+
+@cache
+def _told(language: str) -> tuple[re.Pattern[str], ...]:
+    table = load_table(language, "dialogue_forms")
+    return tuple(re.compile(form.replace("@name", table["name"])) for form in table.get("remember_told", ()))
+
+
 def _trimmed(name: str, language: str) -> str:
     trim = _pattern(language, "name_trim")
     name = name.strip(" \"'“”「」『』.,!。")

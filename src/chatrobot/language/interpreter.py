@@ -23,7 +23,7 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount, with_manner
-from chatrobot.language.beside import any_may_bear, are_asides
+from chatrobot.language.beside import any_may_bear, are_asides, refers
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -45,7 +45,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
-from chatrobot.language.starting import is_withdrawn, without_call_sign, without_hold
+from chatrobot.language.starting import is_withdrawn, mended_alone, without_call_sign, without_hold
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -91,7 +91,7 @@ class OfflineInterpreter:
         return read_glossed(text, language, context, self._read)
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        text = without_call_sign(normalise(text), language)
+        text = mended_alone(without_call_sign(normalise(text), language))
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         if offers and is_withdrawn(text, language):
@@ -195,6 +195,8 @@ class OfflineInterpreter:
             Unclear: where no clause orders anything.
         """
         odds = order_log_odds(reads)
+        if len(reads) == 1 and refers(reads[0].clause):
+            odds = max(odds, ORDER)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.
             return meant if odds >= ORDER or says_meant(plain) else proposed(meant, language) or meant

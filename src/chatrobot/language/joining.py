@@ -22,8 +22,11 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None
-    if "all" in last.flags or ("again" in last.flags and not last.has_extent):
+    again = "again" in last.flags and not last.has_extent and (first.moves or first.flags != {"same_amount"})
+    if "all" in last.flags or again:
         return None
+    if _is_told_in_degrees(last, first):
+        return last
     told = last.moves and last.has_extent
     if {"between", "after_each"} & last.flags and told and first.has_extent and not first.moves:
         return None
@@ -52,6 +55,12 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
     if joined in ("strong", "colon"):
         return both if _completes(last, first) else None
     return both if _belongs(last, first) else None
+
+
+def _is_told_in_degrees(last: Frame, first: Frame) -> bool:
+    """`A twirl to the left, 360 degrees`: the same amount once more."""
+    bare = set(first.q) == {"angle"} and not (first.moves or first.flags or first.roles or first.pace)
+    return bare and "turns" in last.q and abs(last.q["turns"].number - first.q["angle"].number) < 1e-3
 
 
 def _names_the_side(last: Frame, first: Frame) -> bool:

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
-from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, any_may_bear, asides, is_sure_aside
+from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, any_may_bear, asides, is_sure_aside, refers
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
@@ -90,6 +90,8 @@ def likeliest(
     """
     reads = read_acts(plain, names)
     best = order_log_odds(reads)
+    if any(refers(read.clause) for read in reads):  # `undo that, I forgot to film it`
+        best = max(best, ORDER)
     if best < ORDER or len(reads) > MOST_CLAUSES:
         return None
     if problem.code == "no_unit":

@@ -23,6 +23,9 @@ def read_remembering(plain: str, reading: Reading) -> Interpretation | None:
     Raises:
         Unclear: where the rest of it is no command.
     """
+    whole = forms.read_place_told(plain, reading.language)
+    if whole:
+        return _placed([Remember(whole)], reading)
     whole = forms.read_place(plain, reading.language)
     if whole and not _BREAKS.search(plain.strip(" ,.!;?")):
         return _placed([Remember(whole)], reading)

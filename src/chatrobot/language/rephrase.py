@@ -33,6 +33,9 @@ def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
 
 
 _ITEM = re.compile(r"\s*\(?(\d{1,2})(?:[、:)] ?|[.,](?: |(?=[^\d\s])))")
+_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})[.):] ?(?=[a-z])")
+_LETTERED = re.compile(r"(?:^|(?<=\s))\(?([a-h])\) ?(?=[a-z\d])")
+_LETTERS = "abcdefgh"
 _NUMBERED = re.compile(r"(?:^|(?<=[\n;。:!.]))\s*(\d{1,2})[、:] ?(?=[^\d\s])")
 
 
@@ -42,10 +45,16 @@ def without_numbers(text: str) -> str:
     items = [_ITEM.match(line) for line in lines]
     if len(items) > 1 and [int(item[1]) if item else 0 for item in items] == [*range(1, len(items) + 1)]:
         return "\n".join([*heading, *(_ITEM.sub("; ", line, count=1) for line in lines)])
-    numbers = [int(number) for number in _NUMBERED.findall(text)]
-    return (
-        _NUMBERED.sub("; ", text) if len(numbers) > 1 and numbers == [*range(1, len(numbers) + 1)] else text
-    )
+    if _INLINE.match(text) and _run_on(_INLINE.findall(text)):  # `1. go 1 m 2. turn left`
+        return _INLINE.sub("; ", text)
+    letters = _LETTERED.findall(text)
+    if len(letters) > 1 and "".join(letters) == _LETTERS[: len(letters)]:
+        return _LETTERED.sub("; ", text)
+    return _NUMBERED.sub("; ", text) if _run_on(_NUMBERED.findall(text)) else text
+
+
+def _run_on(numbers: list[str]) -> bool:
+    return len(numbers) > 1 and [int(number) for number in numbers] == [*range(1, len(numbers) + 1)]
 
 
 def is_item(line: str) -> bool:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cache
 
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIRECTIONS, SIDES, Frame
@@ -22,8 +24,24 @@ _BETWEEN = frozenset({"glue", "filler"})
 def back_to_places(atoms: Sequence[Atom]) -> list[Atom]:
     """`go back home`: `back` right before a place says where to, and not that it drives backwards."""
     return [
-        Atom("glue", "x", atom.text) if _leads_to_a_place(atoms, i) else atom for i, atom in enumerate(atoms)
+        Atom("glue", "x", atom.text) if _leads_to_a_place(atoms, i) or _introduces_a_place(atoms, i) else atom
+        for i, atom in enumerate(atoms)
     ]
+
+
+def _introduces_a_place(atoms: Sequence[Atom], i: int) -> bool:
+    """`go to waypoint oak`, `to the spot we called oak`: what the name stands for."""
+    words = _kinds_of_places()
+    end = i
+    while end < len(atoms) and (atoms[end].text in words or atoms[end].kind in _BETWEEN):
+        end += 1
+    return atoms[i].text in words and end < len(atoms) and atoms[end].kind == "place"
+
+
+@cache
+def _kinds_of_places() -> frozenset[str]:
+    tables = (load_table(code, "dialogue_forms").get("kinds_of_places", ()) for code in LANGUAGES)
+    return frozenset(word for words in tables for word in words)
 
 
 def _leads_to_a_place(atoms: Sequence[Atom], i: int) -> bool:

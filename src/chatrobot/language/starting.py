@@ -9,7 +9,12 @@ from functools import cache
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import GO, Frame
+from chatrobot.language.lexicon import lexicon
+from chatrobot.language.typos import correct
 from chatrobot.language.unclear import Unclear
+
+_ALONE = ((("flag", "again"),), (("verb", "undo"),))
+"""What a single word asks for, though it is mistyped."""
 
 
 def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
@@ -34,6 +39,14 @@ def without_hold(plain: str, language: str) -> str:
 def without_call_sign(plain: str, language: str) -> str:
     """A normalised text without the number that it calls the robot by, at its start: `unit four, go`."""
     return _pattern(language, "call_sign").sub("", plain, count=1)
+
+
+def mended_alone(text: str) -> str:
+    """`Agian`: a text of one mistyped word that asks for the motion before once more, or takes it back."""
+    if not text.isalpha() or (text,) in lexicon().words:
+        return text
+    word = correct(text)
+    return word if lexicon().words.get((word,)) in _ALONE else text
 
 
 def is_withdrawn(plain: str, language: str) -> bool:

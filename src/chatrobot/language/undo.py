@@ -128,6 +128,8 @@ def last_two(context: Context, said: str, *, steps: bool) -> list[Step]:
         if len(plans) > 1:
             raise Unclear("unclear_motion", said)
         return turns
+    if len(plans) == 1 and len(turns) == 2:
+        return turns
     if len(plans) < 2:
         raise Unclear("nothing_before", said)
     return turns
