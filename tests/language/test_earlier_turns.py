@@ -35,7 +35,7 @@ def test_the_same_to_the_right_is_the_same_length() -> None:
     ("before", "said"),
     [
         ("forward 1 m", "come back a little"),
-        ("forward 1 m", "come back half way"),
+        ("forward 1 m", "come back part of the way"),
         ("forward 50 cm", "repeat that until you've gone 2 metres in all"),
     ],
 )
