@@ -38,7 +38,17 @@ def without_restated(atoms: Sequence[Atom]) -> list[Atom]:
         if not math.isclose(out[-1].number, atoms[again].number, rel_tol=_TOLERANCE):
             raise Unclear("contradiction", f"{out[-1].text} {atoms[again].text}")
         i = again + 1
+        if _only_explains(out):
+            del out[-2:]
     return out
+
+
+def _only_explains(out: Sequence[Atom]) -> bool:
+    """往前走三尺，三尺就是一米: the amount was said before, and this clause only says what it comes to."""
+    if len(out) < 3 or out[-2].kind != "sep":
+        return False
+    *before, _, told = out
+    return any((a.kind, a.text, a.number) == ("q", told.text, told.number) for a in before)
 
 
 def _again(out: Sequence[Atom], atoms: Sequence[Atom], i: int) -> int | None:
@@ -50,7 +60,16 @@ def _again(out: Sequence[Atom], atoms: Sequence[Atom], i: int) -> int | None:
         said = said or atoms[end].text in _words()
         end += 1
     told = end < len(atoms) and atoms[end].kind == "q" and _dimension(atoms[end]) == _dimension(out[-1])
-    return end if said and told else None
+    return end if told and (said or _is_another_unit(out[-1], atoms, i, end)) else None
+
+
+def _is_another_unit(before: Atom, atoms: Sequence[Atom], i: int, end: int) -> bool:
+    """走半米，五十公分: as much in another unit, and nothing more."""
+    alone = end + 1 == len(atoms) or atoms[end + 1].kind == "sep"
+    alike = before.role != atoms[end].role and math.isclose(before.number, atoms[end].number)
+    return (
+        alone and alike and end > i and all(_is_light(atom) or atom.kind == "filler" for atom in atoms[i:end])
+    )
 
 
 def _is_light(atom: Atom) -> bool:
