@@ -226,7 +226,9 @@ def _repeat(script: Script, frames: list[Frame], i: int) -> int | None:
     """`four times`, `repeat that twice`, `three times in all`, `… until three turns are full`."""
     frame, units = frames[i], script.units
     counted = bool({"times", "count"} & set(frame.q))
-    if is_moves_only(script, frame):
+    if "total" in frame.flags and counted and not frame.has_extent and len(period(units)) < len(units):
+        script.units = repeated(period(units), count_of(frame))  # so often in all, of what was told twice
+    elif is_moves_only(script, frame):
         script.units = repeated(units, count_of(frame))
     elif is_times_only(frame) or ("again" in frame.flags and not frame.moves and counted):
         script.units = repeated(units, count_of(frame) + bool({"extra", "more"} & frame.flags))
