@@ -6,6 +6,7 @@ Plain rewriting of normalised text, by the patterns of `rephrase.toml`, before a
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from functools import cache
 
 from chatrobot.language.data_files import load_table
@@ -14,8 +15,19 @@ from chatrobot.language.normalise import has_chinese, normalise
 
 @cache
 def _rules(language: str) -> tuple[tuple[re.Pattern[str], str], ...]:
-    rules = load_table(language, "rephrase").get("rules", ())
-    return tuple((re.compile(pattern), said) for pattern, said in rules)
+    table = load_table(language, "rephrase")
+    parts: dict[str, str] = table.get("parts", {})
+    return tuple((re.compile(_in_full(pattern, parts)), said) for pattern, said in table.get("rules", ()))
+
+
+def _in_full(pattern: str, parts: Mapping[str, str]) -> str:
+    """A pattern with what each `<name>` in it stands for, which may name others."""
+    found = re.search(r"(?<!\?P)<(\w+)>", pattern)
+    if found is None:
+        return pattern
+    stands_for = parts[found[1]]
+    grouped = stands_for if stands_for.startswith("(") else f"(?:{stands_for})"
+    return _in_full(pattern.replace(found[0], grouped), parts)
 
 
 @cache
