@@ -37,7 +37,8 @@ def run(args: argparse.Namespace) -> int:
     """
     recording, amiss = read_recording(args.file)
     if amiss:
-        print(f"chatrobot: {words_in(_language(recording))(amiss)}", file=sys.stderr)
+        language = language_of_tags(recording.meta.get("language", ""))
+        print(f"chatrobot: {words_in(language)(amiss)}", file=sys.stderr)
     if args.web:
         return _show_in_browser(args, recording)
     output = Output()
@@ -51,10 +52,6 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(screen := getattr(show, "__self__", None), _Screen):
         screen.end()
     return STOPPED if has_left else 0
-
-
-def _language(recording: Recording) -> LanguageCode:
-    return language_of_tags(recording.meta.get("language", ""))
 
 
 def _in_json(output: Output) -> Show:
@@ -73,7 +70,7 @@ class _Screen:
     def __init__(self, output: Output, recording: Recording) -> None:
         meta = recording.meta
         self._output = output
-        self._language = _language(recording)
+        self._language: LanguageCode = language_of_tags(meta.get("language", ""))
         self._printer = HumanPrinter(output, shows_pose=True)
         self._motion_view = MotionView()
         self._trail: list[tuple[float, float]] = []
