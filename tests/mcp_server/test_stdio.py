@@ -29,7 +29,7 @@ from tests.mcp_server.mcp_rig import (
 pytestmark = pytest.mark.realtime
 
 
-def test_an_agent_rehearses_drives_looks_and_cancels_and_all_is_recorded(tmp_path: Path) -> None:
+def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
     path = tmp_path / "agent.mcap"
 
     async def task() -> None:
