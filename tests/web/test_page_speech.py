@@ -54,6 +54,7 @@ def test_the_microphone_listens_once_it_is_told_where_the_sound_goes_and_leaves_
     page.evaluate('hear("stop stop")')
     rig.session.wait_for("say", "stop stop")
     expect(button).to_have_attribute("aria-pressed", "false")
+    page.locator("#language").click()
     page.get_by_role("button", name="中文").click()
     page.get_by_role("button", name="说话", exact=True).click()
     assert page.evaluate("begun") == ["en-US", "zh-CN"]
