@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import math
 import os
 import resource
@@ -218,6 +219,8 @@ def test_a_full_disk_ends_the_recording_with_a_sentence_and_nothing_else(tmp_pat
         text=True,
         timeout=60,
         check=False,
+        # Python would leave half a file of bytecode there, which nobody can import afterwards.
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000)),
     )
     events = [json.loads(line) for line in done.stdout.splitlines()]
