@@ -121,7 +121,6 @@ def test_a_correction_says_that_it_is_the_rest() -> None:
     assert read("# rest\ndrive 1 m")[0].names_rest
     assert read("```\n# rest\ndrive 1 m\n```")[0].names_rest
     assert not read("drive 1 m\n# rest")[0].names_rest
-    assert read("# rest\n")[0].is_blank
 
 
 @given(st.text(max_size=200), st.integers(1, 9))

@@ -12,8 +12,8 @@ from chatrobot.core.events import Finished, Notice, Ordered, Said, Scan, Started
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import PRIORITIES, Priority
-from chatrobot.link.client_line import TURNS, ClientLine
 from chatrobot.link.envelope import WORDS, Envelope
+from chatrobot.link.motion_link import TURNS, ClientLine
 
 PERSON, AGENT = ClientLine(0), ClientLine(1)
 STOPS = ("stop", "emergency_stop")

@@ -12,7 +12,7 @@ from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, Finished, Notice, Ordered, Rehearsed, Started, Telemetry
 from chatrobot.dialogue.options import Options
-from chatrobot.link.client_line import TURNS
+from chatrobot.link.motion_link import TURNS
 
 PATIENCE = 400
 AT_ONCE, ASKS = Options(), Options(approve=True)

@@ -25,7 +25,7 @@ from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
-from chatrobot.link.client_line import TURNS
+from chatrobot.link.motion_link import TURNS
 from tests.web.browser import PLAN, browser, count_pixels, open_page, page, rehearse, say, write_program
 from tests.web.rig import WebRig, wait_until
 

@@ -10,7 +10,7 @@ import pytest
 
 from chatrobot.core.events import Finished, Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
-from chatrobot.link.client_line import TURNS
+from chatrobot.link.motion_link import TURNS
 from chatrobot.web.steering import FIRST_BEAT_S, Steering
 from tests.web.rig import PATIENCE_S, NotingSession, WebRig, wait_until
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 from chatrobot.core.clock import TICK_S, VirtualClock
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Notice
-from chatrobot.link.client_line import ClientLine
 from chatrobot.link.envelope import Word
-from chatrobot.link.motion_link import MotionLink, Sender
+from chatrobot.link.motion_link import ClientLine, MotionLink, Sender
 from chatrobot.wire.messages import ZERO
 from chatrobot.wire.wire import Wire
 

@@ -18,7 +18,7 @@ from pathlib import Path
 from chatrobot.compose import Connection
 from chatrobot.core.events import Result
 from chatrobot.core.process import wake_promptly
-from chatrobot.link.client_line import TURNS
+from chatrobot.link.motion_link import TURNS
 from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.runtime_dir import agent_socket_path

@@ -19,8 +19,8 @@ from collections.abc import Callable, Mapping, Sequence
 from chatrobot.core.clock import RealClock
 from chatrobot.core.errors import WireError
 from chatrobot.core.events import Event, Scan, Telemetry
-from chatrobot.link.client_line import ClientLine
 from chatrobot.link.envelope import Envelope, ready
+from chatrobot.link.motion_link import ClientLine
 from chatrobot.motion.control_loop import ControlLoop
 from chatrobot.motion.runner import MotionRunner, Shared
 from chatrobot.motion.safety.watchdog import SharedGuard, start_guard

@@ -64,17 +64,12 @@ class WorldFile:
         return self.where.get(what, self.source)
 
 
-def read_world(path: Path) -> World:
-    """Return the world in a YAML file.
+def read_world_file(path: Path) -> WorldFile:
+    """Return the world in a YAML file, with its lines. A map of map_server may have places in a file beside it.
 
     Raises:
         WorldError: names file, line, field, what is wrong and what is allowed.
     """
-    return read_world_file(path).world
-
-
-def read_world_file(path: Path) -> WorldFile:
-    """Return the same, with its lines. A map of ROS's map_server may have its places in a file beside it."""
     root = compose(read_text(path), str(path))
     if not is_map(root):
         return _world(root.mapping(*_KEYS), (), path.stem, str(path))

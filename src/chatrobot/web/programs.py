@@ -12,7 +12,7 @@ from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.session import Session
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason
-from chatrobot.link.client_line import TURNS
+from chatrobot.link.motion_link import TURNS
 from chatrobot.programs.library import KeptProgram
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.web.outbox import Face, Message

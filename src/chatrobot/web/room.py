@@ -15,7 +15,7 @@ from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import Event, Finished, Notice, Remembered, Result
 from chatrobot.language.interpretation import LanguageCode
-from chatrobot.link.client_line import TURNS
+from chatrobot.link.motion_link import TURNS
 from chatrobot.plan.steps import Go, Plan
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_release

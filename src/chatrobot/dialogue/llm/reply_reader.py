@@ -44,12 +44,6 @@ class ReplyReader:
         first = next((line.strip() for line in self.text.splitlines() if _is_content(line)), "")
         return first.casefold() == REST
 
-    @property
-    def is_blank(self) -> bool:
-        """True where there is nothing in it but comments and empty lines."""
-        lines = (line.strip() for line in self.text.splitlines())
-        return not any(line and not line.startswith(("#", _FENCE)) for line in lines)
-
     def feed(self, piece: str) -> list[Step]:
         """Return the steps that the piece completes."""
         self.text += piece
