@@ -14,6 +14,7 @@ from chatrobot.language.edits import edited, resized
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
+from chatrobot.language.likeliest import proposed
 from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
@@ -187,7 +188,8 @@ def _until(until: UntilObstacle, reading: Reading) -> Interpretation:
         duration_s=last.duration_s if said else None,
         until=ObstacleWithin(until.distance_m),
     )
-    return planned([*steps, *steps_of(until.after, reading)], reading.language)
+    plan = planned([*steps, *steps_of(until.after, reading)], reading.language)
+    return plan if until.is_said else proposed(plan, reading.language) or plan
 
 
 def _is_stop(plain: str, reading: Reading) -> bool:

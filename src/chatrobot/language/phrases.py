@@ -157,7 +157,7 @@ def _drive(step: Drive, spoken: Callable[..., str]) -> str:
     elif step.duration_s is not None:
         text = spoken("step_drive_time", way=way, s=number(step.duration_s))
     else:
-        text = spoken("step_drive_until", way=way)
+        text = spoken("step_drive_until", way=way, m=number(step.until.distance_m) if step.until else "")
     return text + (spoken("step_speed", mps=number(step.speed_mps)) if step.speed_mps else "")
 
 

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
 from chatrobot.language.data_files import LANGUAGES, compiled, expand, load_table
 from chatrobot.language.lexicon import UNIT, Key, lexicon
+from chatrobot.language.until import until_spans
 
 _STRONG, _WEAK = frozenset(".!?;。…\n"), frozenset(",:、—~")
 _NO_CONTENT = frozenset(
@@ -164,7 +165,20 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
             units.append((unit, match.start()))
     if units:
         found += _parted(list(_signs(units, names)), "", start, len(text))
-    return found
+    spans = until_spans(text)
+    return (
+        [replace(clause, signs=tuple(_measured(clause.signs, spans))) for clause in found] if spans else found
+    )
+
+
+def _measured(signs: Sequence[Sign], spans: Sequence[tuple[int, int]]) -> Iterator[Sign]:
+    """The signs; `until you are 50 cm from the wall` is an amount: what it names tells of nothing that is there."""
+    for sign in signs:
+        at = next((begin for begin, stop in spans if begin <= sign.start < stop), None)
+        if at is None:
+            yield sign
+        elif at == sign.start:
+            yield Sign("UNIT", sign.text, True, at)
 
 
 def _is_apart(text: str, before: Unit, start: int) -> bool:

@@ -1,15 +1,20 @@
-"""`Drive until something is 30 cm in front of you`: a drive that ends at an obstacle, at a distance that is said."""
+"""`Drive until something is 30 cm in front of you`: a drive that ends at an obstacle."""
 
 from __future__ import annotations
 
+import itertools
 import re
+from collections.abc import Iterator
 from functools import cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import tokenise
+
+UNSAID_M = 0.5
+"""How near an obstacle may be where nobody says it: asked about before it is driven."""
 
 
 class UntilObstacle(NamedTuple):
@@ -18,24 +23,35 @@ class UntilObstacle(NamedTuple):
     before: str
     distance_m: float
     after: str
+    is_said: bool = True
+    """False where only the obstacle is told, and not how near."""
 
 
 @cache
-def _patterns(language: str) -> tuple[re.Pattern[str], ...]:
+def _patterns(language: str, kind: str = "patterns") -> tuple[re.Pattern[str], ...]:
     table = load_table(language, "until")
     thing = table.get("thing", "")
-    return tuple(re.compile(p.replace("THING", thing)) for p in table.get("patterns", ()))
+    return tuple(re.compile(p.replace("THING", thing)) for p in table.get(kind, ()))
 
 
 def read_until(text: str, language: str) -> UntilObstacle | None:
-    """The drive and its condition; None where there is none, or where no distance is said."""
-    for pattern in _patterns(language):
-        found = pattern.search(text)
-        if found is None:
-            continue
+    """The drive and its condition; None where there is none."""
+    for found in _found(text, language):
         amounts = read_quantities(tokenise(found["distance"], lexicon(), {}))
         lengths = [a for a in amounts if a.kind == "q" and a.value == "length"]
         other = [a for a in amounts if a.kind not in ("q", "glue", "filler", "num")]
         if len(lengths) == 1 and not other and 0 < lengths[0].number <= 10:
             return UntilObstacle(text[: found.start()].strip(" ,"), lengths[0].number, text[found.end() :])
+    for found in _found(text, language, "unsaid"):
+        return UntilObstacle(text[: found.start()].strip(" ,"), UNSAID_M, text[found.end() :], is_said=False)
     return None
+
+
+def until_spans(text: str) -> list[tuple[int, int]]:
+    """Where such conditions begin and end, in any language: how far to drive, as a distance would tell it."""
+    kinds = itertools.product(LANGUAGES, ("patterns", "unsaid"))
+    return [found.span() for language, kind in kinds for found in _found(text, language, kind)]
+
+
+def _found(text: str, language: str, kind: str = "patterns") -> Iterator[re.Match[str]]:
+    return (found for pattern in _patterns(language, kind) if (found := pattern.search(text)))
