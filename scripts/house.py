@@ -75,22 +75,23 @@ print(*sorted(name.rpartition("/chatrobot/")[2] for name in outside), sep="\\n")
 
 def figures() -> dict[str, float]:
     """Every figure by its name."""
-    trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py"))}
+    trees = parsed()
+    graph = {_module(file): set(_loaded(tree)) for file, tree in trees.items()}
     lines = {file: len(file.read_text(encoding="utf-8").splitlines()) for file in trees}
     outside = {file: count for file, count in lines.items() if not _is_language(file)}
     pieces = [count for file, count in outside.items() if file.name != "__init__.py"]
-    functions = [f for file, tree in trees.items() if not _is_language(file) for f in _functions(tree)]
-    documented = [
-        bool(d) for file, tree in trees.items() if not _is_language(file) for d in _public(file, tree)
-    ]
+    functions = [f for file in outside for f in _functions(trees[file])]
+    documented = [bool(d) for file in outside for d in _public(file, trees[file])]
     files, calls = walk()[:2]
     numbers = list(_numbers(trees))
     excepts = [
-        has_reason for file in outside for has_reason in broad_excepts(file.read_text(encoding="utf-8"))
+        has_reason
+        for file in outside
+        for has_reason in broad_excepts(file.read_text(encoding="utf-8"), trees[file])
     ]
     return {
-        "import cycles": len(cycles(trees)),
-        "late imports that would close a cycle": late_imports(trees),
+        "import cycles": len(cycles(graph)),
+        "late imports that would close a cycle": late_imports(trees, graph),
         "files entered from say to the first velocity": files,
         "functions entered from say to the first velocity": calls,
         "median lines of a file": statistics.median(pieces),
@@ -108,6 +109,18 @@ def figures() -> dict[str, float]:
     }
 
 
+@cache
+def parsed() -> dict[Path, ast.Module]:
+    """Every file of the source, parsed once."""
+    return {file: ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py"))}
+
+
+@cache
+def _nodes(tree: ast.Module) -> tuple[ast.AST, ...]:
+    """Every node of a file, walked once: most of what the figures take is walking."""
+    return tuple(ast.walk(tree))
+
+
 def says_unit(name: str) -> bool:
     """Return whether the last word of a number's name is its unit, or says that it has none; but for `steps_done`."""
     last = re.sub("_(done|before)$", "", name.lower().strip("_")).rpartition("_")[2]
@@ -119,7 +132,7 @@ def _numbers(trees: dict[Path, ast.Module]) -> Iterator[tuple[str, str]]:
     for file, tree in trees.items():
         if _is_language(file) or _is_of_ros(file):
             continue
-        for node in ast.walk(tree):
+        for node in _nodes(tree):
             if isinstance(node, ast.arg) and _is_number(node.annotation):
                 yield node.arg, f"{file.relative_to(SOURCE)}:{node.lineno}"
             elif isinstance(node, ast.AnnAssign) and _is_number(node.annotation):
@@ -139,10 +152,10 @@ def _is_number(annotation: ast.expr | None) -> bool:
     return bool(kinds & {"float", "int"}) and kinds <= {"float", "int", "None"}
 
 
-def broad_excepts(source: str) -> Iterator[bool]:
+def broad_excepts(source: str, tree: ast.Module) -> Iterator[bool]:
     """Yield for each except that catches everything whether a comment on its line or above says why."""
     lines = source.splitlines()
-    for node in ast.walk(ast.parse(source)):
+    for node in _nodes(tree):
         if isinstance(node, ast.ExceptHandler):
             caught = node.type.elts if isinstance(node.type, ast.Tuple) else [node.type]
             if any(kind is None or ast.unparse(kind) in ("Exception", "BaseException") for kind in caught):
@@ -167,9 +180,8 @@ def walk() -> tuple[int, int, list[str]]:
     return files, functions, [name for name in names if name]
 
 
-def cycles(trees: dict[Path, ast.Module]) -> list[list[str]]:
+def cycles(graph: dict[str, set[str]]) -> list[list[str]]:
     """Groups of modules that reach each other by what they import when they are loaded."""
-    graph = {_module(file): set(_loaded(tree)) for file, tree in trees.items()}
     reached = {name: _reached(name, graph) for name in graph}
     groups = {
         tuple(sorted(other for other in graph if other in reached[name] and name in reached[other]))
@@ -222,9 +234,8 @@ def _is_for_types(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
 
 
-def late_imports(trees: dict[Path, ast.Module]) -> int:
+def late_imports(trees: dict[Path, ast.Module], graph: dict[str, set[str]]) -> int:
     """Imports inside functions that could not stand at the top: their module imports this one."""
-    graph = {_module(file): set(_loaded(tree)) for file, tree in trees.items()}
     late = 0
     for file, tree in trees.items():
         for function in _functions(tree):
@@ -234,7 +245,7 @@ def late_imports(trees: dict[Path, ast.Module]) -> int:
 
 
 def _functions(tree: ast.Module) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
-    for node in ast.walk(tree):
+    for node in _nodes(tree):
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             yield node
 
@@ -268,8 +279,9 @@ def _public(file: Path, tree: ast.Module) -> Iterator[str | None]:
 @cache
 def _classes() -> dict[str, ast.ClassDef]:
     """The classes by their names; of two with one name, either."""
-    trees = (ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py")))
-    return {node.name: node for tree in trees for node in tree.body if isinstance(node, ast.ClassDef)}
+    return {
+        node.name: node for tree in parsed().values() for node in tree.body if isinstance(node, ast.ClassDef)
+    }
 
 
 def _inherited(method: str, owner: ast.ClassDef) -> str | None:
@@ -295,9 +307,8 @@ def worse(now: dict[str, float], held: dict[str, float]) -> list[str]:
 
 
 def _print_units() -> None:
-    trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in sorted(SOURCE.rglob("*.py"))}
     places: dict[str, list[str]] = {}
-    for name, place in _numbers(trees):
+    for name, place in _numbers(parsed()):
         if not says_unit(name):
             places.setdefault(name, []).append(place)
     for name, found in sorted(places.items(), key=lambda item: -len(item[1])):

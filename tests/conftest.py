@@ -6,6 +6,8 @@ import gc
 import os
 import signal
 
+import pytest
+
 try:
     from hypothesis import settings
 except ImportError:
@@ -28,6 +30,15 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 gc.disable()
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """`make test` looks for tests in real time only in files that name the marker."""
+    files = {item.path for item in items if item.get_closest_marker("realtime")}
+    nameless = [str(path) for path in files if "mark.realtime" not in path.read_text(encoding="utf-8")]
+    if nameless:
+        raise pytest.UsageError(f"name pytest.mark.realtime in {', '.join(sorted(nameless))}: make test misses it")
+
+
 def pytest_collection_finish() -> None:
     gc.freeze()
+    gc.set_threshold(50_000)  # a parsed source is a million objects, and no garbage either
     gc.enable()

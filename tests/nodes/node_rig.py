@@ -53,11 +53,15 @@ class Node(TalkingProcess):
         os.kill(self.process.pid, getattr(signal, name))
         return now_s
 
-    def end(self) -> None:
-        """Thaw it, ask it to end, and see that it has."""
+    def ask_to_end(self) -> None:
+        """Thaw it, and ask it to end."""
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.process.pid, signal.SIGCONT)
             self.process.terminate()
+
+    def end(self) -> None:
+        """Ask it to end, and see that it has."""
+        self.ask_to_end()
         try:
             self.process.wait(10.0)
         except subprocess.TimeoutExpired:
@@ -182,7 +186,10 @@ class NodeRig:
         return struck_s
 
     def close(self) -> None:
-        for node in reversed(self._all):
+        robot, *nodes = self._all
+        for node in nodes:
+            node.ask_to_end()
+        for node in (*nodes, robot):  # control sees it stand
             node.end()
         self.ear.close()
 

@@ -24,10 +24,10 @@ from chatrobot.sim.world import check_start
 WORLDS = [name for name in world_names() if name != "empty"]
 WIDE = load_profile("generic_diff")
 """0.4 m square: what it passes, the small bases pass."""
-LIMITS = {"max_speed_mps": 4.0, "max_rate_radps": 8.0, "acceleration_mps2": 10.0,
-          "angular_acceleration_radps2": 40.0, "deceleration_mps2": 10.0}  # fmt: skip
+LIMITS = {"max_speed_mps": 8.0, "max_rate_radps": 16.0, "acceleration_mps2": 40.0,
+          "angular_acceleration_radps2": 200.0, "deceleration_mps2": 40.0}  # fmt: skip
 CHANGES = {rf"({name} = {{ value = )[\d.]+": rf"\g<1>{value}" for name, value in LIMITS.items()} | {
-    r"\nspeed_mps = .*": "\nspeed_mps = 4.0", r"\nrate_radps = .*": "\nrate_radps = 8.0",
+    r"\nspeed_mps = .*": "\nspeed_mps = 8.0", r"\nrate_radps = .*": "\nrate_radps = 16.0",
     r"\n\[lidar\](\n.+)*": "", r"\nscan_topic = .*": "",
 }  # fmt: skip
 """Of the profile of the default robot. Each second of a drive costs 50 ticks, however fast it is driven: 500 legs at

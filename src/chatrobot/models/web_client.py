@@ -7,12 +7,17 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextvars import ContextVar
+from functools import cache
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 import httpx2
 
 from chatrobot.models.discovery import LOOPBACK
 from chatrobot.models.seam import CallLimits
+
+if TYPE_CHECKING:
+    import ssl
 
 CONNECT_S = 10.0
 ERROR_BYTES = 65_536
@@ -59,12 +64,20 @@ def allow(limits: CallLimits) -> None:
     reply_bytes.set(limits.reply_chars * BYTES_PER_CHAR + SPARE_BYTES)
 
 
+@cache
+def _trusted(*, by_environment: bool) -> ssl.SSLContext:
+    """The authorities of this machine, read once: that takes longer than all else of a client."""
+    return httpx2.create_ssl_context(trust_env=by_environment)
+
+
 def web_client(base_url: str) -> httpx2.AsyncClient:
     """Return a client for one model; connections are kept between its calls. Each request brings its own time limit."""
+    may_trust_environment = urlsplit(base_url).hostname not in LOOPBACK
     return httpx2.AsyncClient(
+        verify=_trusted(by_environment=may_trust_environment),
         timeout=httpx2.Timeout(CallLimits().total_s, connect=CONNECT_S),
         follow_redirects=False,  # not every provider's key header is dropped when a redirect leads elsewhere
-        trust_env=urlsplit(base_url).hostname not in LOOPBACK,
+        trust_env=may_trust_environment,
         headers={"User-Agent": "chatrobot", "Accept-Encoding": "identity"},
         event_hooks={"request": [_hurry], "response": [_look_at]},
     )
