@@ -90,6 +90,19 @@ def repair(path: Path) -> int | None:
     return count
 
 
+def repair_elsewhere(path: Path) -> None:
+    """Have a truncated file of ours written anew by a process of its own: it takes seconds, and robots may move.
+
+    Raises:
+        ChatRobotError: nothing in it can be read.
+        OSError: it cannot be read.
+    """
+    with held(path) as is_ours:
+        is_due = is_ours and not is_whole(path) and _header(path).library.startswith(LIBRARY)
+    if is_due:
+        _run("chatrobot.recording.repair", str(path))
+
+
 def copy_whole(path: Path, mended: BinaryIO) -> int:
     """Copy record by record, up to the first that is not whole, and write an end; how many messages there are.
 
