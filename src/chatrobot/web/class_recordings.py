@@ -1,8 +1,8 @@
 """The recordings of a class: a file for each pupil's robot, and what whoever teaches may do with them.
 
-All are written by one thread, in turns (decision 63), and less is in each than in that of a single robot: no scans, and
-what changes ten times a second (decision 56). A recording that is deleted ends, and that pupil is not recorded until the
-teacher says so.
+All are written by one thread, in turns (decision 63), and less is in each than in that of a single robot: no scans,
+and what changes ten times a second (decision 56). A recording that is deleted ends, and that pupil is not recorded
+until the teacher says so.
 
 Only a teacher's token fetches and deletes them. A name is looked up among the recordings of this class, and never
 becomes a path.
