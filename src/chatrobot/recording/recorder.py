@@ -93,7 +93,8 @@ class WritingThread:
     def _run(self) -> None:
         place, wait_s = 0, self._first_s
         while count := self._count():
-            if self._wake.wait(wait_s):
+            is_woken, began_s = self._wake.wait(wait_s), time.monotonic()
+            if is_woken:
                 self._wake.clear()
                 due = [recorder for recorder in self._recorders if recorder.is_closing]
             else:
@@ -102,7 +103,7 @@ class WritingThread:
             for recorder in due:
                 if not recorder.write():
                     self._recorders.remove(recorder)
-            wait_s = self._look_s / count
+            wait_s = max(0.0, began_s + self._look_s / count - time.monotonic())
 
     def _count(self) -> int:
         with self._lock:
