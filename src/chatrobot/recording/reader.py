@@ -101,10 +101,7 @@ def _content(summary: Any) -> str:
 def _take_all(
     recording: Recording, messages: Iterable[tuple[Any, Any, Any]], tell: Tell, total_count: int
 ) -> int:
-    """Put every message where it belongs, in the order of time; how many did.
-
-    What has another type than ours, or is broken, is left out.
-    """
+    """Put every message of a type of ours that can be read where it belongs, in the order of time; how many did."""
     from chatrobot.wire.dds.definitions import MALFORMED, RosDefinitions
 
     definitions = RosDefinitions()

@@ -69,7 +69,7 @@ def held(path: Path) -> Iterator[bool]:
         yield True
 
 
-def tell_nobody(_: float) -> None:
+def tell_nobody(_share: float) -> None:
     """Say nothing."""
 
 
