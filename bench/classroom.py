@@ -32,6 +32,7 @@ from chatrobot.sim.robot import TRUTH_TOPIC
 from chatrobot.web.class_recordings import ClassRecordings
 from chatrobot.web.pupils import PupilsRobot, RobotWires, connect_class
 from chatrobot.web.room import Room
+from chatrobot.web.server import SWITCH_S
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
 
@@ -200,6 +201,7 @@ def main(arguments: Sequence[str]) -> None:
     if arguments[:1] == ["--listen"]:
         listen(arguments[1:])
         return
+    sys.setswitchinterval(SWITCH_S)  # as the server of a class does
     print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors")
     for count in map(int, arguments or COUNTS):
         with tempfile.TemporaryDirectory() as folder:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import time
@@ -11,10 +12,12 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 from chatrobot.recording.reader import Recording, read
-from chatrobot.recording.repair import is_whole
+from chatrobot.recording.repair import copy_whole, is_whole
+from chatrobot.robots.load import load_profile
 from chatrobot.sim.robot import TRUTH_TOPIC
 from chatrobot.wire.local import LocalWire
-from chatrobot.wire.messages import Odometry, Text, TwistMessage
+from chatrobot.wire.messages import LaserScan, Message, Odometry, Text, TwistMessage
+from chatrobot.wire.ros_messages import ros_form
 from tests.nodes.node_rig import Node, NodeRig
 from tests.processes import Heard
 
@@ -98,3 +101,39 @@ def test_on_dds_it_has_the_words_the_plan_the_way_and_the_result_of_nodes(tmp_pa
     assert max(twist.vx_mps for _, twist in recording.commands) > 0.1
     assert recording.commands[-1][1] == (0.0, 0.0, 0.0)
     assert math.dist((at.x_m, at.y_m), (recording.truth[-1][1].x_m, recording.truth[-1][1].y_m)) < 0.01
+
+
+def test_over_rosbridge_it_has_what_the_robot_is_told_what_it_says_and_words(tmp_path: Path) -> None:
+    pytest.importorskip("websockets", reason="pip install 'chatrobot[rosbridge]'")
+    from tests.wire.fake_rosbridge import FakeRosbridge
+
+    path, wiring, bridge = tmp_path / "a.mcap", load_profile("wheeltec_mini_mec").wiring, FakeRosbridge()
+    now_s = time.time()
+    told: list[tuple[str, Message]] = [("user_input", Text("forward, 向前"))]
+    for tick in range(20):
+        told.append((wiring.cmd_vel_topic, TwistMessage(0.2, 0.0, 0.01 * tick)))
+        told.append(("odom", Odometry(now_s + 0.02 * tick, 0.004 * tick, 0.0, 0.1, 0.2, 0.0, 0.0)))
+    told.append(("scan", LaserScan(now_s, 0.0, 0.1, 0.1, 12.0, [1.5, math.inf, 2.5])))
+    try:
+        record = Node(["-m", "chatrobot", "record", str(path), "--on", f"rosbridge:{bridge.url}"], os.environ)
+        try:
+            record.wait_for_line("Ctrl-C ends it")
+            assert bridge.wait_for("subscribe", 8, 10.0), (
+                "velocities, odometry, scans, truth and four of text"
+            )
+            for topic, message in told:
+                bridge.say(f"/{topic}", ros_form(topic, type(message), wiring).to_ros(message))
+            ends_s = time.monotonic() + 10.0
+            while path.stat().st_size == 0 or copy_whole(path, io.BytesIO()) < len(told):
+                assert time.monotonic() < ends_s
+                time.sleep(0.05)
+            recording = end(record, path)
+        finally:
+            record.end()
+    finally:
+        bridge.stop()
+    assert [text for _, text in recording.words] == ["forward, 向前"]
+    sent = [message for _, message in told if isinstance(message, TwistMessage)]
+    assert [twist for _, twist in recording.commands] == [pytest.approx(one) for one in sent]
+    assert [at.x_m for _, at in recording.odometry] == pytest.approx([0.004 * tick for tick in range(20)])
+    assert [scan.ranges_m for _, scan in recording.scans] == [[1.5, math.inf, 2.5]]

@@ -157,6 +157,39 @@ def test_a_bag_of_others_is_read_with_stamped_velocities_or_says_what_it_holds(t
         read_recording(str(tmp_path / "else.mcap"))
 
 
+def test_what_a_bag_has_out_of_order_is_read_in_the_order_of_time(tmp_path: Path) -> None:
+    path, type_name = tmp_path / "a.mcap", CMD_VEL.form.type_name
+    definitions = RosDefinitions()
+    with path.open("wb") as file:
+        writer = Writer(file, chunk_size=1)  # each message is a chunk of its own
+        writer.start("ros2", "libmcap 1.3.0")
+        schema = writer.register_schema(type_name, "ros2msg", definitions.text_of(type_name).encode())
+        channel = writer.register_channel(CMD_VEL.name, "cdr", schema)
+        for t_s in (3, 1, 2):
+            data = definitions.cdr(type_name, CMD_VEL.form.to_ros(TwistMessage(t_s, 0.0, 0.0)))
+            writer.add_message(channel, t_s * 10**9, data, t_s * 10**9)
+        writer.finish()
+    recording = read(path)
+    assert [(t_s, twist.vx_mps) for t_s, twist in recording.commands] == [(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)]
+    assert (recording.began_ns, recording.duration_s) == (10**9, 2.0)
+
+
+def test_a_terminal_is_told_how_much_has_been_read_and_nobody_else(
+    recorded: tuple[Path, list[dict]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("chatrobot.cli.recorder.SHOWN_EVERY_S", 0.0)
+    read_recording(str(recorded[0]))
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    read_recording(str(recorded[0]))
+    *told, last = capsys.readouterr().err.split("\r")[1:]
+    shares = [int(line.removeprefix("drive.mcap: ").removesuffix("%\033[K")) for line in told]
+    assert len(shares) > 1
+    assert shares == sorted(shares)
+    assert shares[-1] > 50
+    assert last == "\033[K"
+
+
 @pytest.mark.parametrize("name", world_names())
 def test_the_world_can_be_read_again_without_its_file(name: str) -> None:
     world = load_world(name)

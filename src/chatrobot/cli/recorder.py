@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Iterable
+import time
+from collections.abc import Callable, Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,6 +31,8 @@ if TYPE_CHECKING:
 Connect = Callable[[Setup, OnEvent], Connection]
 EXTRA = "pip install 'chatrobot[record]'"
 _LIBRARIES = ("mcap", "rosbags")
+SHOWN_EVERY_S = 0.2
+"""So often a terminal is told how much of a recording has been read."""
 MOST_NAMED = 8
 """So many recordings of a folder are named, the last ones."""
 
@@ -69,15 +73,34 @@ def read_recording(name: str) -> tuple[Recording, str]:
     try:
         if path.is_dir():
             path = _only_file(path)
-        was_mended = repair(path) is not None
-        if is_whole(path):
-            return read(path), "repaired" if was_mended else ""
-        with tempfile.NamedTemporaryFile(suffix=SUFFIX) as copy:
-            with Path(copy.name).open("wb") as whole:
-                copy_whole(path, whole)
-            return read(Path(copy.name), path), "unfinished"
+        with _progress(path.name) as tell:
+            was_mended = repair(path, tell) is not None
+            if is_whole(path):
+                return read(path, tell=tell), "repaired" if was_mended else ""
+            with tempfile.NamedTemporaryFile(suffix=SUFFIX) as copy:
+                with Path(copy.name).open("wb") as whole:
+                    copy_whole(path, whole, tell)
+                return read(Path(copy.name), path, tell), "unfinished"
     except OSError as error:
         raise UsageError(error.strerror or str(error), where=str(path), allowed="an .mcap file") from error
+
+
+@contextlib.contextmanager
+def _progress(name: str) -> Iterator[Callable[[float], None]]:
+    """Show how much of that file has been read, on one line of the terminal that errors go to, while it is entered."""
+    shown_s = began_s = time.monotonic()
+
+    def tell(share: float) -> None:
+        nonlocal shown_s
+        if (now_s := time.monotonic()) - shown_s >= SHOWN_EVERY_S and sys.stderr.isatty():
+            shown_s = now_s
+            print(f"\r{name}: {share:.0%}\033[K", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield tell
+    finally:
+        if shown_s > began_s:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
 def _only_file(folder: Path) -> Path:

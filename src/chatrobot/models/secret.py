@@ -11,10 +11,16 @@ HIDDEN = "•••"
 _SHORTEST = 6
 """Shorter "keys" (`none`, `x`) are placeholders; hiding them would mutilate ordinary words."""
 _QUOTES = {'"': '"', "'": "'", "`": "`", "“": "”", "‘": "’", "«": "»"}
+_TOKENS = (
+    r"\b(?:sk|pk|rk|gsk|hf|xai)[-_][A-Za-z0-9_\-*]{8,}|\bAIza[A-Za-z0-9_\-*]{8,}|"
+    r"(?i:\bbearer\s+)[A-Za-z0-9._~+/=\-]{8,}"
+)
 _LOOKS_LIKE_ONE = re.compile(
     r"[^\s\"'“”‘’*]{0,40}\*{3,}[^\s\"'“”‘’]{0,40}|"  # as providers show one: its end behind asterisks
-    r"\b(?:sk|pk|rk|gsk|hf|xai)[-_][A-Za-z0-9_\-*]{8,}|\bAIza[A-Za-z0-9_\-*]{8,}|(?i:\bbearer\s+)[A-Za-z0-9._~+/=\-]{8,}"
+    + _TOKENS
 )
+_HAS_NO_ASTERISKS = re.compile(_TOKENS)
+"""The same for texts without `***`, in less than half the time: recordings scrub each telemetry event."""
 
 
 Flaw = Literal["not_ascii", "space"]
@@ -79,7 +85,7 @@ def scrub(text: str, secret: Secret | None) -> str:
     if len(value) >= _SHORTEST:
         for form in _forms(value):
             text = text.replace(form, HIDDEN)
-    return _LOOKS_LIKE_ONE.sub(HIDDEN, text)
+    return (_LOOKS_LIKE_ONE if "***" in text else _HAS_NO_ASTERISKS).sub(HIDDEN, text)
 
 
 class PieceScrubber:

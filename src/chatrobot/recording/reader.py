@@ -8,11 +8,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, TypeVar
 
 from chatrobot.core.errors import UsageError
-from chatrobot.recording.repair import errors_of_broken_files
+from chatrobot.recording.repair import TOLD_EVERY, Tell, errors_of_broken_files, tell_nobody
 from chatrobot.recording.topics import (
     CMD_VEL,
     EVENTS,
@@ -55,7 +56,7 @@ class Recording:
     words: list[tuple[float, str]] = field(default_factory=list)
 
 
-def read(path: Path, copy_of: Path | None = None) -> Recording:
+def read(path: Path, copy_of: Path | None = None, tell: Tell = tell_nobody) -> Recording:
     """Read the recording in a file that is whole (`repair` sees to that), or that is a whole copy of another.
 
     Raises:
@@ -70,7 +71,10 @@ def read(path: Path, copy_of: Path | None = None) -> Recording:
             reader = make_reader(file)
             ours = [about.metadata for about in reader.iter_metadata() if about.name == METADATA]
             recording.meta = dict(ours[-1]) if ours else {}
-            is_empty = not _take_all(recording, reader.iter_messages(topics=[topic.name for topic in TOPICS]))
+            statistics = getattr(reader.get_summary(), "statistics", None)
+            # The library's order by time would take as long as the rest: a file has nearly that order already.
+            messages = reader.iter_messages([topic.name for topic in TOPICS], log_time_order=False)
+            is_empty = not _take_all(recording, messages, tell, statistics.message_count if statistics else 0)
             there = _content(reader.get_summary()) if is_empty else ""
         except errors_of_broken_files() as error:
             raise UsageError(
@@ -94,28 +98,33 @@ def _content(summary: Any) -> str:
     return "only " + ", ".join(told[:MOST_NAMED]) + (" …" if len(told) > MOST_NAMED else "")
 
 
-def _take_all(recording: Recording, messages: Iterable[tuple[Any, Any, Any]]) -> int:
-    """Put every message where it belongs; how many did. What has another type than ours, or is broken, is left out."""
+def _take_all(
+    recording: Recording, messages: Iterable[tuple[Any, Any, Any]], tell: Tell, total_count: int
+) -> int:
+    """Put every message of a type of ours that can be read where it belongs, in the order of time; how many did."""
     from chatrobot.wire.dds.definitions import MALFORMED, RosDefinitions
 
     definitions = RosDefinitions()
     forms = {(topic.name, topic.form.type_name): topic.form for topic in TOPICS}
     forms[CMD_VEL.name, STAMPED_VELOCITY.type_name] = STAMPED_VELOCITY
-    count = 0
-    for schema, channel, message in messages:
+    found: list[tuple[int, str, Message | None]] = []
+    for count, (schema, channel, message) in enumerate(messages):
+        if total_count and count % TOLD_EVERY == 0:
+            tell(count / total_count)
         form = forms.get((channel.topic, schema.name)) if schema is not None else None
         if form is None or channel.message_encoding != MESSAGE_ENCODING:
             continue
         try:
-            found = form.from_ros(definitions.read(form.type_name, message.data))
+            content = form.from_ros(definitions.read(form.type_name, message.data))
         except (*MALFORMED, AttributeError):
             continue
-        recording.began_ns = message.log_time if count == 0 else recording.began_ns
-        count += 1
-        t_s = (message.log_time - recording.began_ns) / NS_PER_S
-        recording.duration_s = max(recording.duration_s, t_s)
-        _take(recording, channel.topic, t_s, found)
-    return count
+        found.append((message.log_time, channel.topic, content))
+    found.sort(key=itemgetter(0))
+    for log_time_ns, topic, content in found:
+        _take(recording, topic, (log_time_ns - found[0][0]) / NS_PER_S, content)
+    if found:
+        recording.began_ns, recording.duration_s = found[0][0], (found[-1][0] - found[0][0]) / NS_PER_S
+    return len(found)
 
 
 def _take(recording: Recording, topic: str, t_s: float, found: Message | None) -> None:

@@ -1,18 +1,22 @@
 """Takes in what happens and has it written by a thread of its own: whoever tells it something never waits.
 
+The recordings of a class share that thread: twenty of them, woken at the same moment, kept the interpreter from the
+beats of every robot for up to a second (decision 63).
+
 What comes faster than it can be written is dropped, counted and told; a disk that is full ends the recording, and
 nothing else.
 """
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import math
 import os
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -44,7 +48,9 @@ MOST_WAITING = 5_000
 LOOK_S, FLUSH_S = 0.1, 0.25
 """How often the queue is looked at, and how often what was written is handed to the operating system."""
 LOOK_OF_MANY_S = 0.5
-"""Where many are recorded: each waking takes the interpreter from all the others."""
+"""Where many are recorded: so often at each of them, one after the other."""
+AT_ONCE, PAUSE_S = 10, 0.001
+"""After so many messages, half a millisecond of work, others get the interpreter: a backlog must not keep it."""
 LOAD_AFTER_S = 0.3
 """The libraries are loaded this long after the start: a prompt is drawn, and a first key echoed, before."""
 CHANGING_S, SAME_S = 0.1, 1.0
@@ -57,6 +63,54 @@ _NEVER_HEARD = frozenset({"pose", "scan"})
 """Truth and scans come from the wire, whether or not somebody watches them."""
 
 
+class WritingThread:
+    """Writes recordings, each in its turn, as long as there are any.
+
+    Args:
+        look_s: within so long each has its turn.
+        first_s: the first turn comes so late.
+    """
+
+    def __init__(self, look_s: float = LOOK_S, first_s: float = 0.0) -> None:
+        self._look_s, self._first_s = look_s, first_s
+        self._recorders: list[Recorder] = []
+        self._lock = threading.Lock()
+        self._wake = threading.Event()
+        self._is_running = False
+
+    def add(self, recorder: Recorder) -> None:
+        """Have that one written, too."""
+        with self._lock:
+            self._recorders.append(recorder)
+            if not self._is_running:
+                self._is_running = True
+                threading.Thread(target=self._run, name="recorder", daemon=True).start()
+
+    def wake(self) -> None:
+        """Have those that are closing written at once."""
+        self._wake.set()
+
+    def _run(self) -> None:
+        place, wait_s = 0, self._first_s
+        while count := self._count():
+            is_woken, began_s = self._wake.wait(wait_s), time.monotonic()
+            if is_woken:
+                self._wake.clear()
+                due = [recorder for recorder in self._recorders if recorder.is_closing]
+            else:
+                place = (place + 1) % count
+                due = [self._recorders[place]]
+            for recorder in due:
+                if not recorder.write():
+                    self._recorders.remove(recorder)
+            wait_s = max(0.0, began_s + self._look_s / count - time.monotonic())
+
+    def _count(self) -> int:
+        with self._lock:
+            self._is_running = bool(self._recorders)
+            return len(self._recorders)
+
+
 class Recorder:
     """One recording. `take`, `hear` and `said` may be called from any thread and return at once.
 
@@ -64,7 +118,7 @@ class Recorder:
         path: the file, which is made here: nothing is there yet, and its folder is.
         clock: that of the robot; on simulated time the sender waits where the queue is full, and nothing is dropped.
         limit_bytes: the recording ends where its file has become so long.
-        is_one_of_many: more robots are recorded by this process: less is written, and less often (`Thinning`).
+        among: what writes the recordings of many robots, this one with them: less is written (`Thinning`).
 
     Raises:
         OSError: the file cannot be made.
@@ -77,11 +131,10 @@ class Recorder:
         *,
         clock: Clock | None = None,
         limit_bytes: float = math.inf,
-        is_one_of_many: bool = False,
+        among: WritingThread | None = None,
     ) -> None:
         self.path = path
-        self._thinning = Thinning() if is_one_of_many else None
-        self._look_s = LOOK_OF_MANY_S if is_one_of_many else LOOK_S
+        self._thinning = Thinning() if among is not None else None
         self._redactor = redactor
         self._clock = clock or RealClock()
         self._is_simulated = not isinstance(self._clock, RealClock)
@@ -97,14 +150,19 @@ class Recorder:
         self.message_count = self.size_bytes = 0
         self.is_over = False
         """Nothing is written any more."""
-        self._is_closing = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
+        self.is_closing = False
+        """What has come is to be written, and then the end."""
+        self._writer: RecordingWriter | None = None
+        self._flushed_s = -math.inf
+        self._is_closed: threading.Event | None = None
+        self._thread = among or WritingThread(first_s=0.0 if self._is_simulated else LOAD_AFTER_S)
 
     def start(self, about: Callable[[], Mapping[str, str]]) -> None:
         """Begin to write; `about` gives the metadata, and is called by the thread that writes."""
         self._about = about
         self._notices.append(Notice(0, Reason("recording", {"path": str(self.path)})))
-        self._thread.start()
+        self._is_closed = threading.Event()
+        self._thread.add(self)
 
     def listen(self, wire: Wire, wiring: Wiring, truth_topic: str = "") -> None:
         """Take in what that robot is told and what it says; the wire is closed with the recording."""
@@ -159,9 +217,10 @@ class Recorder:
         """Write what has come, and the index. Waits for it."""
         if self._wire is not None:
             self._wire.close()
-        self._is_closing.set()
-        if self._thread.ident is not None and threading.current_thread() is not self._thread:
-            self._thread.join()
+        self.is_closing = True
+        if self._is_closed is not None:
+            self._thread.wake()
+            self._is_closed.wait()
 
     def _waited(self) -> bool:
         """On simulated time, wait until there is room: it stands meanwhile."""
@@ -171,48 +230,59 @@ class Recorder:
 
     # --- the thread that writes ---
 
-    def _run(self) -> None:
-        try:
-            if not self._is_simulated:
-                self._is_closing.wait(LOAD_AFTER_S)
-            from chatrobot.recording.writer import RecordingWriter
-
-            self._redactor.refresh()
-            writer = RecordingWriter(os.fdopen(self._descriptor, "wb"), self._about(), self._redactor)
-            try:
-                self._write_all(writer)
-            finally:
-                self.is_over = True
-                writer.close()
+    def write(self) -> bool:
+        """Write what has come by now; False once the file is closed."""
+        is_last = self.is_closing
+        with self._failures_told():
+            self._writer = self._writer or self._open()
+            self._write_news(self._writer)
+        if not (is_last or self.is_over):
+            return True
+        with self._failures_told():
+            if self._writer is not None:
+                self._writer.close()
                 self.size_bytes = self.path.stat().st_size
+        self.is_over = True
+        if self._is_closed is not None:
+            self._is_closed.set()
+        return False
+
+    @contextlib.contextmanager
+    def _failures_told(self) -> Iterator[None]:
+        """End the recording where something goes wrong within."""
+        try:
+            yield
         except OSError as error:
             self._end("recording_failed", problem=error.strerror or str(error))
         except Exception as error:  # noqa: BLE001 - a recording that breaks must end nothing else
             self._end("recording_failed", problem=f"{type(error).__name__}: {error}")
 
-    def _write_all(self, writer: RecordingWriter) -> None:
-        flushed_s = -math.inf
-        while True:
-            is_last = self._is_closing.wait(self._look_s)
-            self._redactor.refresh()
-            has_news = self._drain(writer)
-            if has_news and time.monotonic() - flushed_s >= FLUSH_S:
-                writer.flush()
-                flushed_s, self.size_bytes = time.monotonic(), writer.size_bytes
-                if self.size_bytes > self._limit_bytes:
-                    self._end("recording_too_large", megabytes=round(self._limit_bytes / 1e6))
-            if is_last or self.is_over:
-                return
+    def _open(self) -> RecordingWriter:
+        from chatrobot.recording.writer import RecordingWriter
+
+        self._redactor.refresh()
+        return RecordingWriter(os.fdopen(self._descriptor, "wb"), self._about(), self._redactor)
+
+    def _write_news(self, writer: RecordingWriter) -> None:
+        self._redactor.refresh()
+        has_news = self._drain(writer)
+        if has_news and time.monotonic() - self._flushed_s >= FLUSH_S:
+            writer.flush()
+            self._flushed_s, self.size_bytes = time.monotonic(), writer.size_bytes
+            if self.size_bytes > self._limit_bytes:
+                self._end("recording_too_large", megabytes=round(self._limit_bytes / 1e6))
 
     def _drain(self, writer: RecordingWriter) -> bool:
         count = len(self._queue)
-        for _ in range(count):
+        for number in range(1, count + 1):
             topic, message, time_ns = self._queue.popleft()
             if isinstance(message, Event):
                 message = Text(strict_json(message.to_json(), is_compact=True))
             elif (timed := stamped(message)) is not None:
                 message = timed._replace(stamp_s=timed.stamp_s + self._began_ns * 1e-9)
             writer.write(topic, message, time_ns)
+            if number % AT_ONCE == 0 and not (self._is_simulated or self.is_closing):
+                time.sleep(PAUSE_S)
         self.message_count += count
         if self._dropped > self._dropped_told:
             self._dropped_told = self._dropped
@@ -222,6 +292,8 @@ class Recorder:
         return count > 0
 
     def _end(self, code: str, **values: Any) -> None:
+        if self.is_over:
+            return  # the first reason is told
         self.is_over = True
         self._queue.clear()
         self._notices.append(Notice(0, Reason(code, {"path": str(self.path), **values})))
@@ -239,10 +311,12 @@ class Thinning:
 
     def keeps(self, topic: Topic, message: Message | Event, now_s: float) -> bool:
         """Tell whether that message is to be recorded."""
+        kept_s, said = self._kept.get(topic.name, (-math.inf, ()))
+        if now_s - kept_s < CHANGING_S - _EARLY_S and isinstance(message, Odometry):
+            return False  # four of five come to nothing more than this
         says = _says(message)
         if says is None:
             return True
-        kept_s, said = self._kept.get(topic.name, (-math.inf, ()))
         wait_s = CHANGING_S if says != said else SAME_S
         turns = isinstance(message, TwistMessage) and any(says) != any(said)
         if not turns and now_s - kept_s < wait_s - _EARLY_S:

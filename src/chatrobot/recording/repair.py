@@ -13,7 +13,7 @@ import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -22,6 +22,10 @@ from chatrobot.core.errors import ChatRobotError, InputError
 if TYPE_CHECKING:
     from mcap.records import Header
 
+Tell = Callable[[float], None]
+"""Hears now and then which share of a file has been read."""
+TOLD_EVERY = 500
+"""So many messages: a hundredth of a second."""
 MAGIC = b"\x89MCAP0\r\n"
 LIBRARY = "chatrobot "
 """How a file begins to say who wrote it, where we did; our version follows."""
@@ -65,7 +69,11 @@ def held(path: Path) -> Iterator[bool]:
         yield True
 
 
-def repair(path: Path) -> int | None:
+def tell_nobody(_share: float) -> None:
+    """Say nothing."""
+
+
+def repair(path: Path, tell: Tell = tell_nobody) -> int | None:
     """Write a truncated file anew; how many messages it holds then. None where nothing was to be done.
 
     A file that is being written just now is left alone, and so is one that another program began: it may be at work,
@@ -82,7 +90,7 @@ def repair(path: Path) -> int | None:
         try:
             descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o600)
             with os.fdopen(descriptor, "wb") as mended:
-                count = copy_whole(path, mended)
+                count = copy_whole(path, mended, tell)
             os.utime(beside, ns=(path.stat().st_atime_ns, path.stat().st_mtime_ns))  # its age stays
             os.replace(beside, path)
         finally:
@@ -90,7 +98,20 @@ def repair(path: Path) -> int | None:
     return count
 
 
-def copy_whole(path: Path, mended: BinaryIO) -> int:
+def repair_elsewhere(path: Path) -> None:
+    """Have a truncated file of ours written anew by a process of its own: it takes seconds, and robots may move.
+
+    Raises:
+        ChatRobotError: nothing in it can be read.
+        OSError: it cannot be read.
+    """
+    with held(path) as is_ours:
+        is_due = is_ours and not is_whole(path) and _header(path).library.startswith(LIBRARY)
+    if is_due:
+        _run("chatrobot.recording.repair", str(path))
+
+
+def copy_whole(path: Path, mended: BinaryIO, tell: Tell = tell_nobody) -> int:
     """Copy record by record, up to the first that is not whole, and write an end; how many messages there are.
 
     Raises:
@@ -99,7 +120,7 @@ def copy_whole(path: Path, mended: BinaryIO) -> int:
     """
     header = _header(path)
     with path.open("rb") as broken:
-        return _copy(broken, mended, header)
+        return _copy(broken, mended, header, tell)
 
 
 def _header(path: Path) -> Header:
@@ -112,11 +133,11 @@ def _header(path: Path) -> Header:
     return found
 
 
-def _copy(broken: BinaryIO, mended: BinaryIO, header: Header) -> int:
+def _copy(broken: BinaryIO, mended: BinaryIO, header: Header, tell: Tell) -> int:
     from mcap import records
     from mcap.writer import Writer
 
-    writer, count = Writer(mended), 0
+    writer, count, size_bytes = Writer(mended), 0, os.fstat(broken.fileno()).st_size
     writer.start(header.profile, header.library)
     schemas: dict[int, int] = {0: 0}
     channels: dict[int, int] = {}
@@ -133,6 +154,8 @@ def _copy(broken: BinaryIO, mended: BinaryIO, header: Header) -> int:
             channel = channels[record.channel_id]
             writer.add_message(channel, record.log_time, record.data, record.publish_time, record.sequence)
             count += 1
+            if count % TOLD_EVERY == 0:
+                tell(broken.tell() / size_bytes)
     writer.finish()  # type: ignore[no-untyped-call]
     return count
 

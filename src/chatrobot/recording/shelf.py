@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from chatrobot.core.errors import ChatRobotError, UsageError
-from chatrobot.recording.repair import held, repair
+from chatrobot.recording.repair import held, repair_elsewhere
 
 FOLDER, SUFFIX = "recordings", ".mcap"
 MOST_BYTES, KEPT_S = 500_000_000, 30 * 86_400
@@ -62,7 +62,7 @@ def tidy(folder: Path, *, most_bytes: float = MOST_BYTES, kept_s: float = KEPT_S
         with contextlib.suppress(ChatRobotError, OSError):
             _delete_if(path, path.stat().st_mtime < time.time() - kept_s or _is_bare(path))
         with contextlib.suppress(ChatRobotError, OSError):
-            repair(path)
+            repair_elsewhere(path)
     make_room(folder, most_bytes)
 
 

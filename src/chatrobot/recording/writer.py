@@ -7,6 +7,7 @@ that is killed loses no more than what came since.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import BinaryIO
 
 from mcap.writer import Writer
@@ -25,6 +26,19 @@ from chatrobot.wire.dds.definitions import RosDefinitions
 from chatrobot.wire.messages import Message, Text
 
 
+@cache
+def ros_definitions() -> RosDefinitions:
+    """Return ROS's definitions, which all recordings of a process share: the first call takes 0.1 s of a processor."""
+    return RosDefinitions()
+
+
+@cache
+def _schema(type_name: str) -> tuple[bytes, str]:
+    """Return a type's definition as text, and its hash."""
+    definitions = ros_definitions()
+    return definitions.text_of(type_name).encode(), definitions.hash_of(type_name)
+
+
 class RecordingWriter:
     """One file; it is closed with the writer.
 
@@ -39,7 +53,7 @@ class RecordingWriter:
 
     def __init__(self, file: BinaryIO, about: Mapping[str, str], redact: Callable[[str], str]) -> None:
         self._redact = redact
-        self._definitions = RosDefinitions()
+        self._definitions = ros_definitions()
         self._file = file
         self._writer = Writer(self._file)
         self._writer.start(PROFILE, library=f"{LIBRARY}{__version__}")
@@ -75,12 +89,12 @@ class RecordingWriter:
 
     def _register(self, topic: Topic) -> None:
         name = topic.form.type_name
+        text, hash_ = _schema(name)
         if name not in self._schemas:
-            text = self._definitions.text_of(name).encode()
             self._schemas[name] = self._writer.register_schema(name, SCHEMA_ENCODING, text)
         self._channels[topic.name] = self._writer.register_channel(
             topic.name,
             MESSAGE_ENCODING,
             self._schemas[name],
-            {"topic_type_hash": self._definitions.hash_of(name)},
+            {"topic_type_hash": hash_},
         )

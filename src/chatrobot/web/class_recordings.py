@@ -1,7 +1,8 @@
 """The recordings of a class: a file for each pupil's robot, and what whoever teaches may do with them.
 
-Each is written as any recording is, by a thread of its own, but with less in it: no scans, and what changes ten times a
-second (decision 56). A recording that is deleted ends, and that pupil is not recorded until the teacher says so.
+All are written by one thread, in turns (decision 63), and less is in each than in that of a single robot: no scans,
+and what changes ten times a second (decision 56). A recording that is deleted ends, and that pupil is not recorded
+until the teacher says so.
 
 Only a teacher's token fetches and deletes them. A name is looked up among the recordings of this class, and never
 becomes a path.
@@ -28,7 +29,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason
 from chatrobot.recording.about import about_of
-from chatrobot.recording.recorder import Recorder
+from chatrobot.recording.recorder import LOOK_OF_MANY_S, Recorder, WritingThread
 from chatrobot.recording.redactor import Redactor
 from chatrobot.recording.repair import read_whole, report_on
 from chatrobot.recording.shelf import MOST_BYTES, make_room, new_path
@@ -114,12 +115,16 @@ class ClassRecordings:
     def __init__(self, folder: Path, in_use: Callable[[], Iterable[str]]) -> None:
         self.folder = folder
         self._in_use = in_use
+        self._thread = WritingThread(LOOK_OF_MANY_S)
         self._lock = threading.RLock()
         self._pupils: dict[str, _Pupil] = {}
         self._files: dict[str, _File] = {}
 
     def open(self, robots: Iterable[tuple[PupilsRobot, Room]], wires: RobotWires) -> None:
-        """Begin to record every pupil."""
+        """Begin to record every pupil. Waits until what writes is loaded: no robot moves as yet."""
+        from chatrobot.recording.writer import ros_definitions
+
+        ros_definitions()
         for robot, room in robots:
             self._pupils[robot.name] = pupil = _Pupil(robot, room)
             pupil.listen(wires)
@@ -153,7 +158,7 @@ class ClassRecordings:
             new_path(self.folder, f"class_pupil_{name:0>2}"),
             Redactor(self._in_use, os.environ),
             limit_bytes=CLASS_BYTES // len(self._pupils),
-            is_one_of_many=True,
+            among=self._thread,
         )
 
     def hear(self, name: str, event: Event) -> None:
