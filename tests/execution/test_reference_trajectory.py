@@ -39,8 +39,18 @@ def test_a_reference_that_waits_is_as_far_on_as_before() -> None:
     reference_trajectory = ReferenceTrajectory(START)
     reference_trajectory.begin(forward(START), 10.0)
     before = reference_trajectory.at(11.0)
-    reference_trajectory.wait(0.5)
+    reference_trajectory.wait(0.5, 11.5, before)
     assert reference_trajectory.at(11.5) == pytest.approx(before)
+
+
+def test_a_reference_does_not_wait_behind_a_robot_that_rolled_on() -> None:
+    reference_trajectory = ReferenceTrajectory(START)
+    segment = forward(START)
+    for at_s in (0.1, 1.0, segment.total_s - 0.1):
+        reference_trajectory.begin(segment, 10.0)
+        seen, _ = segment.at(at_s)
+        reference_trajectory.wait(at_s, 10.0 + at_s, seen)
+        assert reference_trajectory.at(10.0 + at_s) == pytest.approx(seen)
 
 
 def test_a_motion_cut_short_ends_where_it_was_cut() -> None:

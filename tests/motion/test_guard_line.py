@@ -64,10 +64,10 @@ def test_a_trip_after_the_handshake_is_told(guard: SlowGuard, answers: tuple[byt
 def test_a_guard_that_has_not_heard_the_handshake_yet_is_alive_while_it_answers(guard: SlowGuard) -> None:
     guard.link.handshake()
     guard.clock.advance(ECHO_LOST_S + 0.1)
-    assert not guard.link.is_alive()
+    assert guard.link.silent_s() > ECHO_LOST_S
     guard.answer(TRIPPED)
     guard.link.was_tripped()
-    assert guard.link.is_alive()
+    assert guard.link.silent_s() < ECHO_LOST_S
 
 
 @pytest.fixture

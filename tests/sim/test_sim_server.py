@@ -19,10 +19,13 @@ from pathlib import Path
 import pytest
 from sim_rig import PROFILE
 
-from chatrobot.core.clock import VirtualClock
+from chatrobot.core.clock import RealClock, VirtualClock
+from chatrobot.sim.__main__ import _server
+from chatrobot.sim.fault_injection import NO_FAULTS
 from chatrobot.sim.obstacle_control import CONTROL_TOPIC, REPLY_TOPIC
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.server import GAP_S, LAST_CLIENT_GONE_S, SimServer
+from chatrobot.sim.server import GAP_S, LAST_CLIENT_GONE_S, SimServer, Simulation
+from chatrobot.sim.world import EMPTY_WORLD
 from chatrobot.wire.local import LocalHub, LocalWire
 from chatrobot.wire.messages import LaserScan, Odometry, Text, TwistMessage
 
@@ -190,6 +193,31 @@ def test_after_a_freeze_it_goes_on_where_it_was(parts: Parts) -> None:
     assert robot.true_pose.x_m == pytest.approx(before.x_m + 0.05)
     assert len(samples) == 50
     assert samples[-1].stamp_s == pytest.approx(clock.now_s())
+
+
+def test_a_command_acts_from_when_it_came_however_late_it_is_read(path: Path) -> None:
+    hub = LocalHub(path)
+    server = _server(PROFILE, EMPTY_WORLD, NO_FAULTS, hub, 0.0)
+    robot, simulation, wire = server._robot, Simulation([server], RealClock()), LocalWire(path)
+    while not hub.client_count:
+        simulation._live()
+
+    def live(duration_s: float) -> None:
+        ends_s = time.monotonic() + duration_s
+        while time.monotonic() < ends_s:
+            simulation._live()
+
+    wire.publish("cmd_vel", TwistMessage(0.2, 0.0, 0.0))
+    live(0.3)
+    before_m = robot.true_pose.x_m
+    assert before_m > 0.0
+    wire.publish("cmd_vel", TwistMessage(0.0, 0.0, 0.0))
+    time.sleep(0.8 * GAP_S)  # this process does not run
+    live(0.05)
+    assert robot.true_pose.x_m - before_m < 0.04, "it began to brake when it was told to"
+    assert robot.true_twist.is_zero
+    wire.close()
+    hub.close()
 
 
 def test_many_robots_in_one_process_meet_nobody_and_each_leaves_with_its_last_client(tmp_path: Path) -> None:

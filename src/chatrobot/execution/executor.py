@@ -14,7 +14,7 @@ from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from chatrobot.execution.estimator import Estimate
 from chatrobot.execution.reference_trajectory import ReferenceTrajectory, Tally
-from chatrobot.execution.sensors import STANDS_LATE_S, Sensors, is_seen_moving, is_seen_standing, sensor_fault
+from chatrobot.execution.sensors import Sensors, is_seen_standing, patience_s, sensor_fault
 from chatrobot.execution.tracking import (
     AT_THE_END,
     BETWEEN_STEPS,
@@ -23,6 +23,7 @@ from chatrobot.execution.tracking import (
     corrected,
     correction,
     must_brake,
+    not_arrived,
     tracking_fault,
     without_reverse,
 )
@@ -34,9 +35,6 @@ from chatrobot.robots.profile import RobotProfile
 
 UNSEEN_S = 0.1
 """A robot that nobody sees is sent zeros for so long at the end of a plan: one may get lost."""
-
-SETTLE_S = 0.8
-"""The longest wait, at the end of a plan, for the robot to be seen standing, where it is not seen moving."""
 
 BARRED_S = 3.0
 """Somebody may walk past; after this long the way is barred and the plan ends."""
@@ -155,7 +153,8 @@ class Executor:
         if fault is not None:
             return self._end("failed", fault)
         if self._withheld > 0.0:
-            self._reference.wait(self._withheld * (now_s - self._noted_s))
+            seen = self._sensors.estimate.pose if self._sensors.estimate is not None else None
+            self._reference.wait(self._withheld * (now_s - self._noted_s), now_s, seen)
             self._noted_s = now_s
         while not self.is_done:
             if self._reference.segment is not None:
@@ -302,29 +301,36 @@ class Executor:
         if self._sensors.estimate is None:
             return ZERO_TWIST if waited_s < UNSEEN_S else self._end("completed", None)
         seen = is_seen_standing(self._sensors)
-        if not seen and waited_s < (STANDS_LATE_S if is_seen_moving(self._sensors) else SETTLE_S):
+        if not seen and waited_s < patience_s(self._sensors):
             return ZERO_TWIST
-        if seen and self._reference.has_moved and self._correct(AT_THE_END, now_s):
+        if not self._reference.has_moved:
+            return self._end("completed", None)
+        if seen and self._correct(AT_THE_END, now_s):
             self._settle_since_s = None
             return ZERO_TWIST
-        return self._end("completed", None)
+        missed = not_arrived(self._profile, self._rest(self._sensors.estimate))
+        return self._end("completed" if missed is None else "failed", missed)
 
     def _correct(self, tolerance: Tolerance, now_s: float) -> bool:
         """Begin a small motion back to the reference if the rest is beyond `tolerance`. True if begun."""
         estimate = self._sensors.estimate
         if estimate is None or self._corrections_left == 0:
             return False
-        rest = self._reference_at(estimate).relative_to(estimate.pose)
-        if self._timed is not None:  # it was to last so long: that it went too far is told, not driven back
-            rest = Pose(*without_reverse(rest, self._timed))
-            rest = rest if self._timed.speed_mps > 0.0 else Pose(0.0, 0.0, rest.yaw_rad)
-        motion = correction(self._profile, rest, tolerance)
+        motion = correction(self._profile, self._rest(estimate), tolerance)
         if motion is None:
             return False
         self._corrections_left -= 1
         self._is_correcting = True
         self._begin_segment(Segment(motion, estimate.pose), now_s)
         return True
+
+    def _rest(self, estimate: Estimate) -> Pose:
+        """Return what is left to be driven, as seen from the robot."""
+        rest = self._reference_at(estimate).relative_to(estimate.pose)
+        if self._timed is not None:  # it was to last so long: that it went too far is told, not driven back
+            rest = Pose(*without_reverse(rest, self._timed))
+            rest = rest if self._timed.speed_mps > 0.0 else Pose(0.0, 0.0, rest.yaw_rad)
+        return rest
 
     def _tell(self, motion: Emit) -> None:
         estimate = self._sensors.estimate

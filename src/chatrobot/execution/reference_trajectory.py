@@ -38,9 +38,12 @@ class ReferenceTrajectory:
         """End the motion under way earlier: from here on it is `segment`."""
         self.segment = segment
 
-    def wait(self, duration_s: float) -> None:
-        """Wait for a robot that something slows."""
+    def wait(self, duration_s: float, now_s: float, seen: Pose | None) -> None:
+        """Wait for a robot that something slows; not where it is `seen` ahead, for it rolled on until it had braked."""
         self.began_s += duration_s
+        if self.segment is not None and seen is not None:
+            reached_s = self.segment.ramp.time_at(self.segment.progress_at(seen))
+            self.began_s = min(self.began_s, now_s - reached_s)
 
     def end(self, *, is_planned: bool) -> None:
         """End the motion under way; `is_planned`: its ideal end is where what follows begins."""

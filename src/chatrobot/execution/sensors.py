@@ -241,6 +241,8 @@ FRESH_S = 0.3
 """Odometry older than this shows nothing."""
 SAME_MOMENT_S = 0.001
 """Stamps closer than this are of one moment: sums of clock ticks differ by rounding."""
+SETTLE_S = 0.8
+"""The longest wait, at the end of a plan, for a robot to be seen standing that is not seen moving."""
 STANDS_LATE_S = 2.0
 """A robot that is told to stand and clearly moves after this long does not obey."""
 
@@ -275,6 +277,13 @@ def is_seen_moving(sensors: Sensors) -> bool:
     if estimate is None or sensors.odometry_age_s() >= FRESH_S:
         return False
     return estimate.twist.speed_mps > MOVING_MPS or abs(estimate.twist.wz_radps) > MOVING_RADPS
+
+
+def patience_s(sensors: Sensors) -> float:
+    """Return how long a robot that was told to stand may take; for ever while nobody sees it: that ends otherwise."""
+    if sensors.odometry_age_s() >= FRESH_S:
+        return math.inf
+    return STANDS_LATE_S if is_seen_moving(sensors) else SETTLE_S
 
 
 def is_seen_standing(sensors: Sensors, since_s: float = -math.inf) -> bool:

@@ -183,8 +183,19 @@ class Tolerance(NamedTuple):
 
 
 AT_THE_END = Tolerance(0.006, math.radians(0.4))
+NOT_ARRIVED = "not_arrived"
+ARRIVED = Tolerance(0.02, math.radians(1.5))
+"""A plan that ends farther off than this has not been done."""
 BETWEEN_STEPS = Tolerance(0.04, math.radians(2.5))
 """Feedback does the work there; only what is this big is driven first."""
+
+
+def not_arrived(profile: RobotProfile, rest: Pose) -> Reason | None:
+    """Return why a plan that leaves `rest`, as far as the base could drive it, has not been done; None where it has."""
+    if correction(profile, rest, ARRIVED) is None:
+        return None
+    off_m, off_deg = math.hypot(rest.x_m, rest.y_m), abs(_degrees(rest.yaw_rad))
+    return Reason(NOT_ARRIVED, {"off_m": round(off_m, 2), "off_deg": off_deg})
 
 
 def correction(profile: RobotProfile, rest: Pose, tolerance: Tolerance) -> RampedTwist | None:

@@ -18,6 +18,9 @@ are processors want to run, and 80 ms of the promised 250 ms are left for everyt
 ECHO_LOST_S = 0.15
 """Motion takes a guard that does not echo for this long as dead, and does not move without one."""
 
+ECHO_LATE_S = 2.0
+"""What has not begun to move waits for a guard that has been silent for less than this: a busy machine holds it up."""
+
 HANDSHAKE, BEAT, GOODBYE = b"H", b"B", b"G"
 """What Motion says to the guard, one byte each. The guard echoes them; a handshake among beats is what it echoes."""
 

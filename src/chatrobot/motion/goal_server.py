@@ -193,8 +193,7 @@ class GoalServer:
 
     def _launch(self, goal: Goal) -> None:
         self._preparing = None
-        self._executor.launch(goal)
-        self._rehearse_part(goal)
+        self._executor.launch(goal, lambda: self._rehearse_part(goal))
 
     # --- rehearsed in parts, while it is driven ---
 

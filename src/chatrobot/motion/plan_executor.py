@@ -13,6 +13,7 @@ from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import is_seen_moving
+from chatrobot.execution.tracking import NOT_ARRIVED
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
@@ -43,6 +44,8 @@ class PlanExecutor:
     _outcomes: OutcomeQueue
     _emit: Callable[[Event], None]
     _run: GoalExecution | ProgramExecution | None = field(default=None, init=False)
+    _begun: Callable[[], None] = field(default=lambda: None, init=False)
+    _awaits_guard: bool = field(default=False, init=False)
     goal: Goal | None = field(default=None, init=False)
     """What is being launched or driven."""
 
@@ -57,11 +60,17 @@ class PlanExecutor:
 
     # --- begin ---
 
-    def launch(self, goal: Goal) -> None:
-        """Begin to drive what has been rehearsed, or refuse it. Nothing else may be under way."""
+    def launch(self, goal: Goal, begun: Callable[[], None]) -> None:
+        """Begin to drive what has been rehearsed, or refuse it; `begun` once it drives. Nothing else may be under way.
+
+        Where the guard has been silent for a moment, as on a busy machine, it waits for it, and nothing moves.
+        """
+        self.goal, self._begun = goal, begun
         now_s = self._clock.now_s()
-        self.goal = goal
         barrier = self._interlock.barrier_for(goal.lease, now_s) or self._robot.begin(goal.lease, now_s)
+        self._awaits_guard = barrier is not None and self._interlock.awaits_guard(barrier)
+        if self._awaits_guard:
+            return
         if barrier is not None:
             self._give_up("refused", barrier)
         elif self._stops.is_unbooked:
@@ -90,6 +99,7 @@ class PlanExecutor:
         self._run = run
         self._emit(Started(run.goal.turn, run.goal.start, self._robot.sensors.has_odometry))
         self.tick(now_s)
+        self._begun()
 
     # --- under way ---
 
@@ -97,6 +107,8 @@ class PlanExecutor:
         """Do one period of what is under way. Where it may not go on, halt the robot; that stop is to be booked."""
         run = self._run
         if run is None:
+            if self._awaits_guard and self.goal is not None:
+                self.launch(self.goal, self._begun)
             return
         barrier = self._interlock.barrier_for(run.goal.lease, now_s)
         if barrier is None and self._robot.sensors.bumped:
@@ -107,7 +119,8 @@ class PlanExecutor:
         run.tick(now_s)
         if run.is_done:
             outcome, reason = run.outcome, run.reason
-            is_waited_for = outcome == "completed"  # it has been told to stand
+            # It has been told to stand, and time enough to.
+            is_waited_for = outcome == "completed" or (reason is not None and reason.code == NOT_ARRIVED)
             if is_waited_for and is_seen_moving(self._robot.sensors):
                 outcome, reason = "failed", Reason("moves_on")
             if outcome != "completed":

@@ -145,6 +145,18 @@ class Ramp:
         rate = self.slope_per_s * left_s
         return self.hold_s - 0.5 * rate * left_s, rate
 
+    def time_at(self, s: float) -> float:
+        """Return when it is at progress `s`: the inverse of `at`."""
+        left = self.hold_s - s
+        if s <= 0.0 or left <= 0.0:
+            return 0.0 if s <= 0.0 else self.total_s
+        ramped = 0.5 * self.peak * self.up_end_s
+        if s < ramped:
+            return math.sqrt(2.0 * s / self.slope_per_s)
+        if left < ramped:
+            return self.total_s - math.sqrt(2.0 * left / self.slope_per_s)
+        return s / self.peak + 0.5 * self.up_end_s
+
     def stop_early(self, t_s: float) -> Ramp:
         """Return the same ramp up to `t_s`, and from there down with slope k: a controlled stop."""
         if t_s >= self.down_start_s:

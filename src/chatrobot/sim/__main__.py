@@ -93,12 +93,12 @@ def _server(
     clock = RealClock()
     server: SimServer | None = None
 
-    def bring_to_the_present(_: TwistMessage) -> None:
+    def bring_to_its_time(_: TwistMessage) -> None:
         if server is not None:
-            server.catch_up()
+            server.catch_up(wire.age_s)
 
-    # Before the robot listens itself: a command must not act on time that had already passed when it came.
-    wire.subscribe(profile.wiring.cmd_vel_topic, TwistMessage, bring_to_the_present)
+    # Before the robot listens itself: a command acts from when it came, on no time before and on all after that.
+    wire.subscribe(profile.wiring.cmd_vel_topic, TwistMessage, bring_to_its_time)
     robot = SimRobot(profile, world, faults, wire=wire, clock=clock)
     robot.skip(later_s)
     SimControl(robot, wire)

@@ -7,7 +7,9 @@ where who comes later finds it, too.
 from __future__ import annotations
 
 import contextlib
+import math
 import queue
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -32,7 +34,13 @@ class MarshalledWire(Wire):
         self._wire = wire
         self._after_publishing = after_publishing
         # Not a SimpleQueue: where a signal comes in the last moment of its timeout, it waits for ever.
-        self._waiting: queue.Queue[tuple[Callable[[Any], None], Any]] = queue.Queue()
+        self._waiting: queue.Queue[tuple[Callable[[Any], None], Any, float]] = queue.Queue()
+        self._came_s = math.inf
+
+    @property
+    def age_s(self) -> float:
+        """Return how long ago the message that is being delivered came."""
+        return max(0.0, time.monotonic() - self._came_s)
 
     def publish(self, topic: str, message: Message) -> None:
         """Publish as `Wire` does; a message that cannot be sent is dropped."""
@@ -42,15 +50,17 @@ class MarshalledWire(Wire):
 
     def subscribe(self, topic: str, kind: type[M], callback: Callable[[M], None]) -> None:
         """Subscribe as `Wire` does; `callback` comes in `poll`."""
-        self._wire.subscribe(topic, kind, lambda message: self._waiting.put((callback, message)))
+        self._wire.subscribe(
+            topic, kind, lambda message: self._waiting.put((callback, message, time.monotonic()))
+        )
 
     def poll(self, timeout_s: float) -> None:
         """Wait up to `timeout_s` for a message and deliver all that are there."""
         try:
-            callback, message = self._waiting.get(timeout=max(0.0, timeout_s))
+            callback, message, self._came_s = self._waiting.get(timeout=max(0.0, timeout_s))
             while True:
                 callback(message)
-                callback, message = self._waiting.get_nowait()
+                callback, message, self._came_s = self._waiting.get_nowait()
         except queue.Empty:
             return
 

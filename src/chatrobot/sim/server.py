@@ -20,7 +20,7 @@ FIRST_CLIENT_S = 15.0
 """It ends if nobody comes within this time."""
 GAP_S = 0.5
 """A pause this long was a frozen process (Ctrl-Z, a sleeping laptop): physics resumes where it was. A shorter
-one was a busy machine: physics catches up."""
+one was a busy machine: physics catches up, and heeds each command of meanwhile from when it came."""
 _SLACK = 1e-6
 """Sums of steps and multiples of ticks differ by rounding; of a tick."""
 
@@ -35,14 +35,14 @@ class SimServer:
         self._clock = clock
         self._alone_since_s = clock.now_s()
 
-    def catch_up(self) -> None:
-        """Bring the robot to the present, so that what happens next happens now."""
+    def catch_up(self, ago_s: float = 0.0) -> None:
+        """Bring the robot to the present, or to where it was `ago_s` ago, so that what happens next happens then."""
         behind_s = self._clock.now_s() - self._robot.now_s
         if behind_s > GAP_S:
             self._robot.skip(behind_s)
             self._alone_since_s += behind_s
-        elif behind_s > 0.0:
-            self._robot.step(behind_s)
+        elif behind_s > ago_s:
+            self._robot.step(behind_s - ago_s)
 
     @property
     def next_tick_s(self) -> float:
@@ -95,6 +95,7 @@ class Simulation:
         all the others' physics."""
         server, due_s = min(self._due_s.items(), key=itemgetter(1))
         if due_s <= self._clock.now_s():
+            server.hub.poll(0.0)  # a robot's motors heed what came meanwhile, however busy this machine is
             server.catch_up()
             self._due_s[server] = server.next_tick_s
             if server.is_deserted:

@@ -10,7 +10,9 @@ import contextlib
 import errno
 import select
 import socket
+import struct
 import threading
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,6 +28,10 @@ PACKET_BYTES = 262_144
 _PACKETS_A_TURN = 64
 """How many packets the hub takes from one process before it looks at the others and at the time."""
 _AT_ONCE = int(socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
+_SO_TIMESTAMPNS = 35
+"""socket(7), asm-generic/socket.h; Python has no name for it."""
+_TIMESPEC = struct.Struct("@ll")
+_STAMP_BYTES = socket.CMSG_SPACE(_TIMESPEC.size)
 SUBSCRIBE = b"\0subscribe\0"
 """A process says this with a topic's name behind it, to hear that topic from then on."""
 
@@ -152,6 +158,17 @@ class LocalHub(Wire):
         self._poller.register(self._listener, select.EPOLLIN)
         self.ever_connected = False
         self._closed = False
+        self._stamp: list[tuple[int, int, bytes]] = []
+        """What the kernel tells of when the packet that is being routed came."""
+
+    @property
+    def age_s(self) -> float:
+        """Return how long ago the message that is being delivered came; 0 where the kernel does not tell."""
+        for _, kind, stamp in self._stamp:
+            if kind == _SO_TIMESTAMPNS and len(stamp) == _TIMESPEC.size:
+                came_s, more_ns = _TIMESPEC.unpack(stamp)
+                return float(max(0.0, time.time() - came_s - more_ns * 1e-9))
+        return 0.0
 
     @property
     def client_count(self) -> int:
@@ -161,6 +178,7 @@ class LocalHub(Wire):
     def publish(self, topic: str, message: Message) -> None:
         if self._closed:
             raise WireError("this end of the wire is closed")
+        self._stamp = []
         self._subscriptions.deliver(topic, message)
         packet: bytes | None = None
         for client, topics in tuple(self._clients.values()):
@@ -199,6 +217,8 @@ class LocalHub(Wire):
     def _accept(self) -> None:
         client, _ = self._listener.accept()
         client.setblocking(False)
+        with contextlib.suppress(OSError):
+            client.setsockopt(socket.SOL_SOCKET, _SO_TIMESTAMPNS, 1)
         self._clients[client.fileno()] = (client, set())
         self._poller.register(client, select.EPOLLIN)
         self.ever_connected = True
@@ -207,7 +227,7 @@ class LocalHub(Wire):
         client, topics = self._clients[descriptor]
         for _ in range(_PACKETS_A_TURN):
             try:
-                packet = client.recv(PACKET_BYTES)
+                packet, self._stamp, _, _ = client.recvmsg(PACKET_BYTES, _STAMP_BYTES)
             except BlockingIOError:
                 return
             except OSError:

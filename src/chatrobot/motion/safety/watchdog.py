@@ -12,19 +12,18 @@ from typing import TYPE_CHECKING, Protocol
 from chatrobot.core.clock import TICK_S, Clock
 from chatrobot.core.process import is_machine_busy
 from chatrobot.core.reason import Reason
-from chatrobot.guard.watch import BEAT, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
+from chatrobot.guard.watch import BEAT, ECHO_LATE_S, ECHO_LOST_S, GOODBYE, HANDSHAKE, MISSED_S, TRIPPED, Watch
 from chatrobot.link.processes import spawn_with_line
 from chatrobot.robots.profile import Wiring
 
 if TYPE_CHECKING:  # the process that talks loads this module for its guard, and no numpy
     from chatrobot.governor.governor import Governor
 
-
 _AT_ONCE = int(socket.MSG_DONTWAIT | socket.MSG_NOSIGNAL)
 
 
 class GuardLink(Protocol):
-    """Motion's line to the guard: Motion refuses to move while `is_alive` is false."""
+    """Motion's line to the guard: Motion refuses to move while it has been silent for `ECHO_LOST_S`."""
 
     def handshake(self) -> None:
         """Begin anew: a trip that the guard has told is known."""
@@ -32,8 +31,8 @@ class GuardLink(Protocol):
     def beat(self) -> None:
         """Say that Motion is there."""
 
-    def is_alive(self) -> bool:
-        """Return whether the guard answers, as it was last heard."""
+    def silent_s(self) -> float:
+        """Return how long the guard has been silent, as it was last heard; infinite where it is gone."""
         ...
 
     def was_tripped(self) -> bool:
@@ -71,9 +70,9 @@ class GuardLine:
     def beat(self) -> None:
         self._say(BEAT)
 
-    def is_alive(self) -> bool:
-        """Return whether an answer came within `ECHO_LOST_S`."""
-        return self._clock.now_s() - self._echo_at_s < ECHO_LOST_S
+    def silent_s(self) -> float:
+        """Return how long ago the last answer came."""
+        return self._clock.now_s() - self._echo_at_s
 
     def was_tripped(self) -> bool:
         """Read what has been answered; return whether the guard has tripped since the last handshake."""
@@ -96,10 +95,10 @@ class GuardLine:
         finally:
             self._line.setblocking(False)
         self._hear()
-        return self.is_alive()
+        return self.silent_s() < ECHO_LOST_S
 
     def _say(self, word: bytes) -> None:
-        with contextlib.suppress(OSError):  # a guard that is gone shows in `is_alive`
+        with contextlib.suppress(OSError):  # a guard that is gone shows in `silent_s`
             self._line.send(word, _AT_ONCE)
 
     def _hear(self) -> None:
@@ -193,9 +192,9 @@ class GuardShare:
     def beat(self) -> None:
         self._shared.beat()
 
-    def is_alive(self) -> bool:
-        """Return whether the guard answers."""
-        return self._shared.line.is_alive()
+    def silent_s(self) -> float:
+        """Return how long the guard has been silent."""
+        return self._shared.line.silent_s()
 
     def was_tripped(self) -> bool:
         """Hear what the guard has answered; return whether it has tripped since this robot's last handshake."""
@@ -208,7 +207,7 @@ class GuardShare:
 
     def wait_until_alive(self, timeout_s: float) -> bool:
         """Block until the guard answers its first handshake."""
-        return self._shared.line.is_alive() or self._shared.line.wait_until_alive(timeout_s)
+        return self.silent_s() < ECHO_LOST_S or self._shared.line.wait_until_alive(timeout_s)
 
 
 class SimulatedGuard:
@@ -227,9 +226,9 @@ class SimulatedGuard:
         self._watch.hear(BEAT, self._clock.now_s())
         self._tripped = self._tripped or self._watch.state == "tripped"
 
-    def is_alive(self) -> bool:
-        """Return True: it cannot die."""
-        return True
+    def silent_s(self) -> float:
+        """Return 0: it cannot die."""
+        return 0.0
 
     def was_tripped(self) -> bool:
         """Return whether it has tripped since the last handshake."""
@@ -331,7 +330,11 @@ class Interlock:
             return self._governor.latched
         if self.obstruction is not None:
             return self.obstruction
-        return None if self._guard.is_alive() else Reason("guard_lost")
+        return None if self._guard.silent_s() < ECHO_LOST_S else Reason("guard_lost")
+
+    def awaits_guard(self, barrier: Reason) -> bool:
+        """Return whether `barrier` may be gone in a moment: a busy machine holds up a guard that is there."""
+        return barrier.code == "guard_lost" and self._guard.silent_s() < ECHO_LATE_S
 
     def barrier_for(self, lease: str, now_s: float) -> Reason | None:
         """Return why what asks under that lease may not move."""
