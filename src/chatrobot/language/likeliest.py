@@ -222,6 +222,8 @@ def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
     clause = read.clause
     others = [other for other in rest.kept if other is not read and other.clause.moves]
     passable = not (clause.measures or clause.depends) and read.log_odds < min(NO_ORDER, best + 1.0)
+    # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
+    passable &= not clause.points or any(other.clause.points for other in others)
     return passable and bool(others) and order_log_odds(others) >= ORDER
 
 

@@ -112,6 +112,11 @@ class Clause:
         """Whether it has a shape, or a number with its unit."""
         return any(sign.label in _MEASURES for sign in self.signs)
 
+    @property
+    def points(self) -> bool:
+        """Whether it says which way."""
+        return any(sign.moves and sign.label in ("DIR", "ROT") for sign in self.signs)
+
     def is_within(self, at: int) -> bool:
         """Whether what stands at `at` in the text comes after what it says is to be done."""
         return any(sign.label in _BEGUN and sign.start < at for sign in self.signs)
