@@ -211,6 +211,9 @@ def _may_be_left_out(
     rest: _Rest, read: Read, stumbled: Unclear, best: float, odds: Mapping[int, float]
 ) -> bool:
     """Whether the clause is no part of what is ordered, or most likely an aside to it."""
+    # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
+    if not any(read.clause.is_covered_by(other.clause) for other in rest.kept if other is not read):
+        return False
     least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     if odds.get(read.clause.start, least - 1.0) >= least and not read.clause.denies:
         return True
@@ -222,8 +225,6 @@ def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
     clause = read.clause
     others = [other for other in rest.kept if other is not read and other.clause.moves]
     passable = not (clause.measures or clause.depends) and read.log_odds < min(NO_ORDER, best + 1.0)
-    # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
-    passable &= not clause.points or any(other.clause.points for other in others)
     return passable and bool(others) and order_log_odds(others) >= ORDER
 
 
