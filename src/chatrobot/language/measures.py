@@ -96,6 +96,8 @@ def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: A
             found.times *= whole_number(value)
     elif name == "number" and head.shape in ("eight", "racetrack", "sbend"):
         return  # "its two circles"
+    elif name == "number" and part.roles and "length" not in part.q and part.shape != "polygon":
+        raise Unclear("no_unit", amount.text)  # `a circle of radius 60` is not sixty circles
     elif name in ("times", "number") and not _is_its_parts(head, part, value):
         _multiply(found, part, name, value)
 
