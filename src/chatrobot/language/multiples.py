@@ -16,6 +16,7 @@ from chatrobot.language.unclear import Unclear
 _AMOUNTS = frozenset({"length", "angle", "turns", "time"})
 _ENDS = frozenset({"sep", "conn", "filler", "operator", "q"})
 _SHARED_BY = ("in", "into", "over", "across")
+_ENDS_OF = frozenset({"the first", "the last"})
 _SHARES = frozenset({"step", "leg", "move"})
 
 
@@ -94,10 +95,11 @@ def in_shares(atoms: Sequence[Atom]) -> list[Atom]:
     """`2 m in four equal steps`, `one turn, split into 8 moves`: so many times that part of the amount.
 
     Raises:
-        Unclear: where the steps have an amount of their own, too.
+        Unclear: where the steps have an amount of their own, too, or only a part of the amount is spoken of.
     """
     out = list(atoms)
     for i, atom in enumerate(atoms):
+        _check_whole(atoms, i)
         if atom.kind != "glue" or atom.text.split()[-1] not in _SHARED_BY:
             continue
         share = atoms[i + 1] if i + 1 < len(atoms) and _is_shares(atoms[i + 1]) else None
@@ -111,6 +113,19 @@ def in_shares(atoms: Sequence[Atom]) -> list[Atom]:
         out[i + 1] = quantity("times", share.number, share.text)
         return out
     return out
+
+
+def _check_whole(atoms: Sequence[Atom], i: int) -> None:
+    """`1 m, the last 20 cm slowly`: that is a part of the metre, and no motion after it.
+
+    Raises:
+        Unclear: naming both.
+    """
+    if atoms[i].text not in _ENDS_OF or i + 1 >= len(atoms) or atoms[i + 1].kind != "q":
+        return
+    whole = [k for k in range(i) if atoms[k].kind == "q" and atoms[k].value == atoms[i + 1].value in _AMOUNTS]
+    if whole and not any(atoms[k - 1].text in _ENDS_OF for k in whole if k):
+        raise Unclear("unclear_motion", " ".join(a.text for a in atoms[whole[-1] : i + 2]))
 
 
 def _is_shares(atom: Atom) -> bool:
