@@ -34,6 +34,9 @@ CORRECTING = frozenset({MEANT, "short_of"})
 _CORRECTED = frozenset({*EXTENTS, "number", "speed", "rate", "radius"})
 _TOTALS = frozenset({"total", "until"})
 _OPPOSITE = ("other_way", "mirrored")
+_ORDERED = ("verb", "dir", "rot", "shape")
+_TOLD = frozenset({"q", "place", "flag", "nth"})
+"""What makes a verb an order, beside a way and a shape."""
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
 
@@ -228,7 +231,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
         Unclear: where nothing is left, or an amount is negated.
     """
     out: list[Atom] = []
-    i = 0
+    i, denied = 0, False
     while i < len(atoms):
         if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
             if any(a.kind == "flag" and a.value == "total" for a in atoms):
@@ -253,10 +256,12 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
             end += 1
         if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
             out.append(Atom("flag", "no_turn", "don't turn"))
+        denied |= bool(scope.moves and not scope.verb)  # `drive not a circle`: the verb alone orders nothing
         announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
         if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
         i = end
-    if len(out) < len(atoms) and not any(a.kind in ("verb", "dir", "rot", "shape") for a in out):
+    ordered = ("dir", "rot", "shape") if denied and not any(a.kind in _TOLD for a in out) else _ORDERED
+    if len(out) < len(atoms) and not any(a.kind in ordered for a in out):
         raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
     return out

@@ -99,7 +99,7 @@ def _stairs(found: Measures) -> list[Step]:
 
 
 def _spiral(found: Measures) -> list[Step]:
-    if len(found.lengths) < 2:
+    if len(found.lengths) < 3:  # `from 20 cm to 1 m` tells no leg between
         raise Unclear("unclear_motion", found.text)
     return outlines.polyline(found.plain(), found.angle_rad or math.pi / 2, found.left, found.speed)
 

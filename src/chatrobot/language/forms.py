@@ -21,7 +21,13 @@ class Definition(NamedTuple):
 
 @cache
 def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    return tuple(re.compile(p) for p in load_table(language, "dialogue_forms")[name])
+    return tuple(re.compile(_in_full(p, language)) for p in load_table(language, "dialogue_forms").get(name, ()))
+
+
+def _in_full(pattern: str, language: str) -> str:
+    """A pattern with what a name may be, and what none is."""
+    table = load_table(language, "dialogue_forms")
+    return pattern.replace("@no_place", table.get("no_place", "")).replace("@name", table.get("name", ""))
 
 
 @cache
@@ -60,18 +66,12 @@ def read_place(clause: str, language: str) -> str | None:
 def read_place_told(text: str, language: str) -> str | None:
     """The name that a whole text gives to where the robot stands, over more than one clause; None if it gives none."""
     plain = text.strip(" ,.!;:。")
-    for pattern in _told(language):
+    for pattern in _patterns(language, "remember_told"):
         found = pattern.fullmatch(plain)
         name = _trimmed(found["name"], language) if found else ""
         if name:
             return name
     return None
-
-
-@cache
-def _told(language: str) -> tuple[re.Pattern[str], ...]:
-    table = load_table(language, "dialogue_forms")
-    return tuple(re.compile(form.replace("@name", table["name"])) for form in table.get("remember_told", ()))
 
 
 def _trimmed(name: str, language: str) -> str:

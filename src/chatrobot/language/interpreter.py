@@ -45,7 +45,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
-from chatrobot.language.starting import is_withdrawn, mended_alone, without_call_sign, without_hold
+from chatrobot.language.starting import is_withdrawn, mended_alone, with_told_apart, without_call_sign, without_hold
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -91,7 +91,7 @@ class OfflineInterpreter:
         return read_glossed(text, language, context, self._read)
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        text = mended_alone(without_call_sign(normalise(text), language))
+        text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         if offers and is_withdrawn(text, language):

@@ -211,6 +211,9 @@ def _may_be_left_out(
     rest: _Rest, read: Read, stumbled: Unclear, best: float, odds: Mapping[int, float]
 ) -> bool:
     """Whether the clause is no part of what is ordered, or most likely an aside to it."""
+    # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
+    if not any(read.clause.is_covered_by(other.clause) for other in rest.kept if other is not read):
+        return False
     least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     if odds.get(read.clause.start, least - 1.0) >= least and not read.clause.denies:
         return True

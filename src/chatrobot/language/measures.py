@@ -94,6 +94,8 @@ def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: A
         found.counts[amount.role] = whole_number(value)
         if amount.role in ("lap", "loop"):
             found.times *= whole_number(value)
+    elif name == "number" and _is_its_size(head, part, amount):
+        raise Unclear("no_unit", amount.text)  # `a circle of radius 60` is not sixty circles
     elif name == "number" and head.shape in ("eight", "racetrack", "sbend"):
         return  # "its two circles"
     elif name in ("times", "number") and not _is_its_parts(head, part, value):
@@ -114,6 +116,13 @@ def _is_its_parts(head: Frame, part: Frame, value: float) -> bool:
     """8字，两个圈的半径…: the two circles that an eight has anyway."""
     both = abs(value - 2) < 1e-9 or abs(value - 4 * math.pi) < 1e-6
     return head.shape in ("eight", "sbend") and both and bool({"radius", "diameter"} & set(part.roles))
+
+
+def _is_its_size(head: Frame, part: Frame, amount: Atom) -> bool:
+    """Whether a bare number is a size and no count: it stands with `radius` or `side`, or behind `three legs`."""
+    if "length" in part.q or part.shape == "polygon" or _is_its_parts(head, part, amount.number):
+        return False
+    return bool(part.roles) or "count" in part.q
 
 
 def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:

@@ -1,4 +1,4 @@
-"""四倍的30公分, 一米的三分之二, 20厘米乘以3: an amount said as a multiple or a part of another.
+"""四倍的30公分, 一米的三分之二, 20厘米乘以3, `2 m in four equal steps`: an amount told by another.
 
 Only amounts of one clause, side by side, are put together: a multiple of a speed is another thing.
 """
@@ -11,9 +11,13 @@ from functools import lru_cache
 from chatrobot.language.data_files import load_table
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.unclear import Unclear
 
 _AMOUNTS = frozenset({"length", "angle", "turns", "time"})
 _ENDS = frozenset({"sep", "conn", "filler", "operator", "q"})
+_SHARED_BY = ("in", "into", "over", "across")
+_ENDS_OF = frozenset({"the first", "the last"})
+_SHARES = frozenset({"step", "leg", "move"})
 
 
 @lru_cache(maxsize=1)
@@ -85,3 +89,51 @@ def _is_part(atom: Atom) -> bool:
 
 def _times(amount: Atom, factor: float, text: str) -> Atom:
     return quantity(amount.value, amount.number * factor, text, amount.role)
+
+
+def in_shares(atoms: Sequence[Atom]) -> list[Atom]:
+    """`2 m in four equal steps`, `one turn, split into 8 moves`: so many times that part of the amount.
+
+    Raises:
+        Unclear: where the steps have an amount of their own, too, or only a part of the amount is spoken of.
+    """
+    out = list(atoms)
+    for i, atom in enumerate(atoms):
+        _check_whole(atoms, i)
+        if atom.kind != "glue" or atom.text.split()[-1] not in _SHARED_BY:
+            continue
+        share = atoms[i + 1] if i + 1 < len(atoms) and _is_shares(atoms[i + 1]) else None
+        at = next((k for k in range(i - 1, -1, -1) if atoms[k].kind in ("q", "shape")), -1)
+        if share is None or at < 0 or atoms[at].value not in _AMOUNTS or _is_apart(atoms[at + 1 : i]):
+            continue
+        own = next((k for k in range(i + 2, len(atoms)) if atoms[k].kind in ("q", "verb", "dir")), None)
+        if own is not None and atoms[own].value == atoms[at].value:
+            raise Unclear("unclear_motion", " ".join(a.text for a in atoms[at : own + 1]))
+        out[at] = _times(atoms[at], 1.0 / share.number, atoms[at].text)
+        out[i + 1] = quantity("times", share.number, share.text)
+        return out
+    return out
+
+
+def _check_whole(atoms: Sequence[Atom], i: int) -> None:
+    """`1 m, the last 20 cm slowly`: that is a part of the metre, and no motion after it.
+
+    Raises:
+        Unclear: naming both.
+    """
+    if atoms[i].text not in _ENDS_OF or i + 1 >= len(atoms) or atoms[i + 1].kind != "q":
+        return
+    whole = [k for k in range(i) if atoms[k].kind == "q" and atoms[k].value == atoms[i + 1].value in _AMOUNTS]
+    if whole and not any(atoms[k - 1].text in _ENDS_OF for k in whole if k):
+        raise Unclear("unclear_motion", " ".join(a.text for a in atoms[whole[-1] : i + 2]))
+
+
+def _is_shares(atom: Atom) -> bool:
+    """`four equal steps`, `two goes`."""
+    named = (atom.value == "count" and atom.role in _SHARES) or atom.text.endswith(" goes")
+    return named and atom.kind == "q" and atom.number.is_integer() and atom.number > 1.0
+
+
+def _is_apart(between: Sequence[Atom]) -> bool:
+    """Whether a motion of its own stands between an amount and its shares."""
+    return any(a.kind in ("verb", "conn", "counter") or a.value == "strong" for a in between)

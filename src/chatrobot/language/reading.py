@@ -21,7 +21,7 @@ from chatrobot.language.last_motion import state_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import instead
-from chatrobot.language.multiples import with_multiples
+from chatrobot.language.multiples import in_shares, with_multiples
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
@@ -70,7 +70,7 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
-        atoms = without_restated(with_multiples(with_slips(read_quantities(atoms))))
+        atoms = without_restated(in_shares(with_multiples(with_slips(read_quantities(atoms)))))
         atoms = back_to_places(with_headings(atoms, self.facing_rad))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work

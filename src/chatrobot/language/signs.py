@@ -26,6 +26,7 @@ _IDLE = frozenset({"VERB", "DIR", "PLACE", "COUNTER"})
 _OPENING = frozenset({"request", "please", "opening", "robot", "hence"})
 _JOINTS = frozenset({"joint", "contrast"})
 _HENCE = "hence"
+_WAYS = frozenset({"DIR", "ROT"})
 _PAST = frozenset({"did", "past"})
 _BEFORE_GOAL = frozenset({"to", "VERB"})
 """The labels of words that begin a clause of their own; the last where a word of motion follows."""
@@ -112,6 +113,12 @@ class Clause:
     def measures(self) -> bool:
         """Whether it has a shape, or a number with its unit."""
         return any(sign.label in _MEASURES for sign in self.signs)
+
+    def is_covered_by(self, other: Clause) -> bool:
+        """Whether `other` says which way, or at least what to do, if this clause does."""
+        mine, told = ({sign.label for sign in clause.signs if sign.moves} for clause in (self, other))
+        needed = _WAYS if mine & _WAYS else _WAYS | {"VERB", "SHAPE"} if "VERB" in mine else None
+        return needed is None or bool(told & needed)
 
     def is_within(self, at: int) -> bool:
         """Whether what stands at `at` in the text comes after what it says is to be done."""

@@ -1,4 +1,4 @@
-"""How a text begins: the call sign of the robot, a bare `go`; and what is held back, or taken back at once."""
+"""How a text begins and ends: the call sign of the robot, a bare `go`, what is told after an order, held or taken back."""
 
 from __future__ import annotations
 
@@ -41,6 +41,11 @@ def without_call_sign(plain: str, language: str) -> str:
     return _pattern(language, "call_sign").sub("", plain, count=1)
 
 
+def with_told_apart(plain: str, language: str) -> str:
+    """A normalised text with a mark before what it tells after an order: `back half a metre | you're on the cable`."""
+    return _pattern(language, "told_after").sub(lambda order: f"{order[0].rstrip()}, ", plain)
+
+
 def mended_alone(text: str) -> str:
     """`Agian`: a text of one mistyped word that asks for the motion before once more, or takes it back."""
     if not text.isalpha() or (text,) in lexicon().words:
@@ -56,7 +61,7 @@ def is_withdrawn(plain: str, language: str) -> bool:
 
 @cache
 def _pattern(language: str, name: str) -> re.Pattern[str]:
-    return re.compile(load_table(language, "starting")[name])
+    return re.compile(load_table(language, "starting").get(name, "(?!)"))
 
 
 def _is_bare(frame: Frame) -> bool:

@@ -7,19 +7,41 @@ from collections.abc import Sequence
 from chatrobot.language.leftovers import next_real, settled_word
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.unclear import Unclear
 
 _HALVES = ("一半", "half")
+_COUNTED = frozenset({"polygon", "star", "eight", "racetrack", "sbend", "zigzag", "stairs", "lawn", "spiral"})
+"""Shapes whose number may be that of their parts."""
 
 
 def tidy(atoms: Sequence[Atom]) -> list[Atom]:
-    """The atoms as the clause reader wants them."""
+    """The atoms as the clause reader wants them.
+
+    Raises:
+        Unclear: for a number behind a shape that may be its size.
+    """
     settled = [settled_word(atoms, i) for i in range(len(atoms))]
     if any(atom.kind == "shape" for atom in settled):
+        _check_sizes(settled)
         settled = [_times_sign(settled, i) for i in range(len(settled))]
     else:
         settled = _radii(settled)
     settled = _pauses(settled)
     return _headings(_fractions_of(_relative_speeds(settled)))
+
+
+def _check_sizes(atoms: Sequence[Atom]) -> None:
+    """`Square 50`, `circle left 60`: how big, in what, and not how often."""
+    drawn = ""
+    for i, atom in enumerate(atoms):
+        if atom.kind == "shape":
+            drawn = atom.value
+        elif atom.kind not in ("dir", "rot", "glue", "filler"):
+            size = atom.kind == "q" and atom.value == "number" and not is_chinese(atom.text)
+            counts_sides = is_kind(atoms, next_real(atoms, i + 1), "role", "side")
+            if size and drawn and drawn not in _COUNTED and not counts_sides:
+                raise Unclear("no_unit", atom.text)
+            drawn = ""
 
 
 def _radii(atoms: Sequence[Atom]) -> list[Atom]:
