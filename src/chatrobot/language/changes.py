@@ -8,8 +8,9 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import flipped, resized
+from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
+from chatrobot.language.inverse import flipped
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese

@@ -19,7 +19,14 @@ from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
-from chatrobot.language.selections import names_a_part, points_at_before, selected, with_another_size
+from chatrobot.language.selections import (
+    further,
+    left_out,
+    names_a_part,
+    points_at_before,
+    selected,
+    with_another_size,
+)
 from chatrobot.language.sounds import mended
 from chatrobot.language.starting import check_start
 from chatrobot.language.tokens import SILENT, Atom
@@ -122,7 +129,8 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
         Unclear: there is no such part, or two readings are as likely.
     """
     dialogue, language = reading.context.dialogue, reading.language
-    part = selected(plain, language, dialogue, reading.atoms)
+    part = left_out(plain, language, dialogue) or further(plain, language, dialogue)
+    part = part or selected(plain, language, dialogue, reading.atoms)
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps

@@ -85,6 +85,8 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     while at < len(atoms) and (atoms[at].kind in _BEFORE_MEANT or atoms[at].value in _OPPOSITE):
         at += 1
     real = [a for a in atoms[at:] if a.kind not in ("sep", "filler", "glue")]
+    if at and real and real[0].value == "overshot":
+        return atoms[at:]  # `oh no, too far, come back half of that`: what is to be done is told
     ways = any(a.kind in ("dir", "rot") for a in real)
     said = [a for a in atoms[:at] if (a.kind, a.value) == ("correction", "replace")]
     meant = any(a.text not in _ONLY_AFTER for a in said) and (

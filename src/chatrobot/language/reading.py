@@ -25,7 +25,7 @@ from chatrobot.language.multiples import with_multiples
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.restated import without_restated
+from chatrobot.language.restated import without_lone_way, without_restated
 from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.tidy import tidy
@@ -44,7 +44,7 @@ def frames_of(atoms: Sequence[Atom]) -> list[Frame]:
         Unclear: for a word that nothing accounts for.
     """
     settled = settle_condition(with_defined_units(without_chatter(with_announced(unrolled(atoms)))))
-    return read_frames(tidy(without_negated(in_order(corrected(settled)))))
+    return without_lone_way(read_frames(tidy(without_negated(in_order(corrected(settled))))))
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _KINDS: dict[str, tuple[type[Step], ...]] = {
     "step": (Step,),
@@ -24,6 +24,7 @@ _KINDS: dict[str, tuple[type[Step], ...]] = {
     "leg": (Drive, Arc),
     "said": (Step,),
     "move": (Step,),
+    "wait": (Wait,),
 }
 
 
@@ -63,6 +64,44 @@ def selected(
         raise Unclear("nothing_before", plain)
     times = whole_number(counts[0].number, counts[0].text) if counts else 1
     return [step for unit in chosen for step in unit] * times
+
+
+def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """The last motion without the part of it that is named: `everything but the wait`; None where none is left out.
+
+    Raises:
+        Unclear: there is no such part, there are several, or nothing would be left.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "without"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
+    kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
+    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    nth = _number(said, "nth", table)
+    if nth:
+        at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
+    many = said["kind"] in table["plurals"] and not nth
+    rest = [step for i, step in enumerate(steps) if i not in at]
+    if not at or (len(at) > 1 and not many) or all(isinstance(step, Wait) for step in rest):
+        raise Unclear("unclear_motion", plain[:60])
+    return rest
+
+
+def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """`One more step`, after three alike: so many more of them; None where the last motion was nothing so often.
+
+    What is counted must be what was repeated.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "further"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    steps = list(last.plan.steps)
+    once = next(n for n in range(1, len(steps) + 1) if steps == steps[:n] * (len(steps) // n))
+    count = _number(found.groupdict(default=""), "count", load_table(language, "selections")) or 1
+    return steps[:once] * count if once < len(steps) else None
 
 
 def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
@@ -110,6 +149,6 @@ def points_at_before(atom: Atom, language: str) -> bool:
 def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:
     """The one length of `now with 50 cm`, which takes the place of the one before; None for anything else."""
     sized = [atom for atom in atoms if atom.kind == "q"]
-    others = [atom for atom in atoms if atom.kind not in ("q", "filler", "glue", "sep")]
+    others = [a for a in atoms if a.kind not in ("q", "filler", "glue", "sep") and a.value != "again"]
     opened = plain.startswith(tuple(load_table(language, "selections").get("with", ())))
     return sized[0] if opened and not others and len(sized) == 1 and sized[0].value == "length" else None
