@@ -20,11 +20,10 @@ from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import (
-    further,
-    left_out,
+    check_spoken_of,
     names_a_part,
+    part_of_before,
     points_at_before,
-    selected,
     with_another_size,
 )
 from chatrobot.language.sounds import mended
@@ -129,8 +128,8 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
         Unclear: there is no such part, or two readings are as likely.
     """
     dialogue, language = reading.context.dialogue, reading.language
-    part = left_out(plain, language, dialogue) or further(plain, language, dialogue)
-    part = part or selected(plain, language, dialogue, reading.atoms)
+    check_spoken_of(plain, language, dialogue)
+    part = part_of_before(plain, language, dialogue, reading.atoms)
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps

@@ -171,7 +171,7 @@ def _unit_by_sense(frame: Frame, value: float, state: State) -> tuple[str, float
 
 def _goes_somewhere(frame: Frame) -> bool:
     along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
-    return along or frame.verb == "slide" or bool(_SLIDING & frame.flags)
+    return along or frame.verb in ("slide", "return") or bool(_SLIDING & frame.flags)
 
 
 def _goes_on_aside(frame: Frame, state: State) -> bool:

@@ -13,6 +13,8 @@ from typing import Any
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
+from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import resized
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -66,6 +68,23 @@ def selected(
     return [step for unit in chosen for step in unit] * times
 
 
+def part_of_before(
+    plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
+) -> list[Step] | None:
+    """The steps of what was done that a normalised text wants again, by their parts; None where it names no part.
+
+    Raises:
+        Unclear: there is no such part.
+    """
+    return (
+        left_out(plain, language, dialogue)
+        or further(plain, language, dialogue)
+        or with_part_resized(plain, language, dialogue, atoms_of)
+        or listed(plain, language, dialogue)
+        or selected(plain, language, dialogue, atoms_of)
+    )
+
+
 def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     """The last motion without the part of it that is named: `everything but the wait`; None where none is left out.
 
@@ -87,6 +106,66 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
     if not at or (len(at) > 1 and not many) or all(isinstance(step, Wait) for step in rest):
         raise Unclear("unclear_motion", plain[:60])
     return rest
+
+
+def with_part_resized(
+    plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
+) -> list[Step] | None:
+    """The last motion with another size of one part: `the same, but the first leg 2 m`; None for anything else.
+
+    Raises:
+        Unclear: there is no such part, or it takes no such size.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    atoms = [atom for atom in atoms_of(found["size"]) if atom.kind not in SILENT]
+    table, said, steps = (
+        load_table(language, "selections"),
+        found.groupdict(default=""),
+        list(last.plan.steps),
+    )
+    if len(atoms) != 1 or atoms[0].kind != "q":
+        return None
+    kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
+    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    nth = _number(said, "nth", table)
+    at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
+    changed = resized([steps[at[0]]], Edit(amounts=[atoms[0]])) if at else None
+    if changed is None:
+        raise Unclear("unclear_motion", plain[:60])
+    return [*steps[: at[0]], *changed, *steps[at[0] + 1 :]]
+
+
+def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """`Only steps 2 and 3`: these parts of the last motion; None where none are listed.
+
+    Raises:
+        Unclear: there are no such parts.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "listed"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
+    at = [_number({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
+    at = [n + len(steps) + 1 if n < 0 else n for n in at]
+    if not all(1 <= n <= len(steps) for n in at) or len(steps) < 2:
+        raise Unclear("nothing_before", plain)
+    return [steps[n - 1] for n in at]
+
+
+def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
+    """`Do that` after a question: what was asked about, and not the motion before.
+
+    Raises:
+        Unclear: nobody can tell what that is.
+    """
+    words = load_table(language, "selections").get("spoken_of", ())
+    last = dialogue.turns[-1] if dialogue.turns else None
+    if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
+        raise Unclear("nothing_before", plain[:60])
 
 
 def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
