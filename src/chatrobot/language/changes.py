@@ -219,7 +219,9 @@ def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:
     step = steps[-1]
     defaults = pace.profile.defaults
     if len(steps) == 1 and isinstance(step, Drive):
-        return dataclasses.replace(step, distance_m=defaults.distance_m / 2, duration_s=None)
+        bit_m = min(defaults.distance_m / 2, step.distance_m or math.inf)  # no more than there was
+        return dataclasses.replace(step, distance_m=bit_m, duration_s=None)
     if len(steps) == 1 and isinstance(step, Turn):
-        return dataclasses.replace(step, angle_rad=defaults.turn_rad / 2, duration_s=None)
+        bit_rad = min(defaults.turn_rad / 2, step.angle_rad or math.inf)
+        return dataclasses.replace(step, angle_rad=bit_rad, duration_s=None)
     raise Unclear("nothing_before", whole.text)

@@ -289,7 +289,8 @@ def _default(frames: list[Frame], reading: Reading) -> Interpretation | None:
             reply = say(language, "default_rate_set", radps=f"{rate:.3g}")
             return Interpretation("answered", reply, language, default_rate_radps=rate)
     else:
-        speed = reading.pace.speed(frame)
+        usual = reading.profile.defaults.speed_mps if frame.pace == "default" and not frame.q else None
+        speed = reading.pace.speed(frame) or usual
         if speed is not None:
             reply = say(language, "default_set", mps=f"{speed:.3g}")
             return Interpretation("answered", reply, language, default_speed_mps=speed)

@@ -60,7 +60,7 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     Raises:
         Unclear: `90 degrees` after `turn left`: so much more, or so much in all? `Clockwise` after `turn 180`?
     """
-    last = dialogue.turns[-1] if dialogue.turns else None
+    last = dialogue.last_motion
     if len(frames) != 1 or last is None or last.plan is None or len(last.plan.steps) != 1:
         return
     frame, step = frames[0], last.plan.steps[0]
@@ -100,8 +100,10 @@ def state_after(context: Context) -> State:
         return state
     sides = [step.distance_m for step in last.plan.steps if isinstance(step, Drive) and step.distance_m]
     radii = [step.radius_m for step in last.plan.steps if isinstance(step, Arc)]
+    if len(sides) == len(last.plan.steps) > 1 and len(set(sides)) == 1:
+        state.sizes["step"] = sides[0]
     drawn = ("side", sides, _LEAST_SIDES), ("radius", radii, 1)
-    state.sizes = {name: of[0] for name, of, least in drawn if len(set(of)) == 1 and len(of) >= least}
+    state.sizes |= {name: of[0] for name, of, least in drawn if len(set(of)) == 1 and len(of) >= least}
     for step in reversed(last.plan.steps):
         if isinstance(step, Drive):
             state.last = "drive"

@@ -92,16 +92,18 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         Unclear: there is no such part, there are several, or nothing would be left.
     """
     last = dialogue.last_motion
-    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "without"))), None)
+    forms = *_forms(language, "without"), *_forms(language, "without_nth")
+    found = next(filter(None, (form.fullmatch(plain) for form in forms)), None)
     if last is None or last.plan is None or found is None:
         return None
     table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
-    kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
+    named = said.get("kind", "")
+    kind = next((kind for kind, words in table["kinds"].items() if named in words), "step")
     at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
     nth = _number(said, "nth", table)
     if nth:
         at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
-    many = said["kind"] in table["plurals"] and not nth
+    many = named in table["plurals"] and not nth
     rest = [step for i, step in enumerate(steps) if i not in at]
     if not at or (len(at) > 1 and not many) or all(isinstance(step, Wait) for step in rest):
         raise Unclear("unclear_motion", plain[:60])
