@@ -42,6 +42,7 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
+from chatrobot.language.selections import wants_part
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.starting import is_withdrawn, mended_alone, without_call_sign, without_hold
 from chatrobot.language.tidy import tidy
@@ -193,7 +194,7 @@ class OfflineInterpreter:
             Unclear: where no clause orders anything.
         """
         odds = order_log_odds(reads)
-        if len(reads) == 1 and refers(reads[0].clause):
+        if (len(reads) == 1 and refers(reads[0].clause)) or wants_part(plain, language):
             odds = max(odds, ORDER)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.

@@ -85,6 +85,12 @@ def part_of_before(
     )
 
 
+def wants_part(plain: str, language: str) -> bool:
+    """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
+    names = ("without", "without_nth", "resized", "listed", "further")
+    return any(form.fullmatch(plain) for name in names for form in _forms(language, name))
+
+
 def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     """The last motion without the part of it that is named: `everything but the wait`; None where none is left out.
 
