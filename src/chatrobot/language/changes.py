@@ -80,6 +80,9 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
+    scale = whole.q.get("scale")
+    if scale is not None and "of" in scale.text.split() and isinstance(before[0], Arc) and len(before) == 1:
+        raise Unclear("which_size", scale.text)  # `half of it`, after a circle: of its radius, or of its way?
     factors = _factors(before, whole, factor)
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
         raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))

@@ -26,11 +26,14 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     assert last is not None
     moved = last.end_pose.relative_to(last.start_pose)
     step = steps[-1]
+    said = set(whole.q)
     whole = _with_unit(whole, last, step)
     if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
+        if "number" in said and not done / 10 <= whole.q["length"].number <= 10 * done:
+            raise Unclear("no_unit", whole.text)  # `too slow, 0.2`: hardly 0.2 cm, after 30 cm
         if "again" in whole.flags:
             raise Unclear("contradiction", whole.text)  # more, or a total?
         missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
