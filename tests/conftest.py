@@ -35,7 +35,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     files = {item.path for item in items if item.get_closest_marker("realtime")}
     nameless = [str(path) for path in files if "mark.realtime" not in path.read_text(encoding="utf-8")]
     if nameless:
-        raise pytest.UsageError(f"name pytest.mark.realtime in {', '.join(sorted(nameless))}: make test misses it")
+        raise pytest.UsageError(
+            f"name pytest.mark.realtime in {', '.join(sorted(nameless))}: make test misses it"
+        )
 
 
 def pytest_collection_finish() -> None:

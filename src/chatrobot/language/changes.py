@@ -8,8 +8,9 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import flipped, resized
+from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
+from chatrobot.language.inverse import flipped
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
@@ -79,6 +80,9 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
         factor = whole.q["percent"].number
+    scale = whole.q.get("scale")
+    if scale is not None and "of" in scale.text.split() and isinstance(before[0], Arc) and len(before) == 1:
+        raise Unclear("which_size", scale.text)  # `half of it`, after a circle: of its radius, or of its way?
     factors = _factors(before, whole, factor)
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
         raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
@@ -218,7 +222,9 @@ def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:
     step = steps[-1]
     defaults = pace.profile.defaults
     if len(steps) == 1 and isinstance(step, Drive):
-        return dataclasses.replace(step, distance_m=defaults.distance_m / 2, duration_s=None)
+        bit_m = min(defaults.distance_m / 2, step.distance_m or math.inf)  # no more than there was
+        return dataclasses.replace(step, distance_m=bit_m, duration_s=None)
     if len(steps) == 1 and isinstance(step, Turn):
-        return dataclasses.replace(step, angle_rad=defaults.turn_rad / 2, duration_s=None)
+        bit_rad = min(defaults.turn_rad / 2, step.angle_rad or math.inf)
+        return dataclasses.replace(step, angle_rad=bit_rad, duration_s=None)
     raise Unclear("nothing_before", whole.text)

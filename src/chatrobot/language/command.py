@@ -20,7 +20,13 @@ from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
-from chatrobot.language.selections import names_a_part, points_at_before, selected, with_another_size
+from chatrobot.language.selections import (
+    check_spoken_of,
+    names_a_part,
+    part_of_before,
+    points_at_before,
+    with_another_size,
+)
 from chatrobot.language.sounds import mended
 from chatrobot.language.starting import check_start
 from chatrobot.language.tokens import SILENT, Atom
@@ -123,7 +129,8 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
         Unclear: there is no such part, or two readings are as likely.
     """
     dialogue, language = reading.context.dialogue, reading.language
-    part = selected(plain, language, dialogue, reading.atoms)
+    check_spoken_of(plain, language, dialogue)
+    part = part_of_before(plain, language, dialogue, reading.atoms)
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps
@@ -284,7 +291,8 @@ def _default(frames: list[Frame], reading: Reading) -> Interpretation | None:
             reply = say(language, "default_rate_set", radps=f"{rate:.3g}")
             return Interpretation("answered", reply, language, default_rate_radps=rate)
     else:
-        speed = reading.pace.speed(frame)
+        usual = reading.profile.defaults.speed_mps if frame.pace == "default" and not frame.q else None
+        speed = reading.pace.speed(frame) or usual
         if speed is not None:
             reply = say(language, "default_set", mps=f"{speed:.3g}")
             return Interpretation("answered", reply, language, default_speed_mps=speed)

@@ -88,7 +88,12 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     while at < len(atoms) and (atoms[at].kind in _BEFORE_MEANT or atoms[at].value in _OPPOSITE):
         at += 1
     real = [a for a in atoms[at:] if a.kind not in ("sep", "filler", "glue")]
+    if at and real and real[0].value == "overshot":
+        return atoms[at:]  # `oh no, too far, come back half of that`: what is to be done is told
     ways = any(a.kind in ("dir", "rot") for a in real)
+    cancels = bool(atoms) and (atoms[0].kind, atoms[0].value) == ("correction", "cancel")
+    if cancels and len(atoms) > 1 and atoms[1].kind in ("dir", "rot"):
+        raise Unclear("unclear_motion", atoms[0].text)  # `not that right, my right`
     said = [a for a in atoms[:at] if (a.kind, a.value) == ("correction", "replace")]
     meant = any(a.text not in _ONLY_AFTER for a in said) and (
         ways or any(a.kind in ("verb", "shape", "place") for a in real)

@@ -9,7 +9,7 @@ from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
-from chatrobot.language.last_motion import steps_of
+from chatrobot.language.last_motion import check_answers_nothing, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
@@ -29,6 +29,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     """
     if _goes_on_the_same_way(frames):
         return None
+    check_answers_nothing(frames, context.dialogue)
     whole = _whole(frames)
     if whole is None:
         return None

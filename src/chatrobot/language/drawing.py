@@ -22,7 +22,21 @@ def drawn(found: Measures) -> list[Step]:
     draw = _DRAWN.get("polygon" if found.shape.startswith("polygon") else found.shape)
     if draw is None:
         raise Unclear("unclear_motion", found.text)
-    return draw(found)
+    return _some_sides(draw(found), found)
+
+
+def _some_sides(steps: list[Step], found: Measures) -> list[Step]:
+    """`Three sides of a square`: with the turns between them, and none after the last.
+
+    Raises:
+        Unclear: where the shape has not as many, or sides that slide.
+    """
+    drives = [i for i, step in enumerate(steps) if isinstance(step, Drive)]
+    if found.some_sides in (0, len(drives)):
+        return steps
+    if found.some_sides > len(drives) or len(drives) * 2 != len(steps):
+        raise Unclear("bad_count", found.text)
+    return steps[: drives[found.some_sides - 1] + 1]
 
 
 def _polygon(found: Measures) -> list[Step]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from chatrobot.language.arithmetic import is_another, sign_of
 from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.tokens import Atom, quantity
-from chatrobot.plan.steps import Arc, Drive, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _IDLE = frozenset({"filler", "glue", "sep", "reason"})
 _POINTING = frozenset({"again", "same_amount", "more", "both", "do_this", "each"})
@@ -24,6 +24,7 @@ _CHANGING = frozenset(
         "all",
         "first",
         "reversed",
+        "same_unit",
     }
 ) | {"until", "original_heading"}
 ROUND = frozenset({"until", "original_heading"})
@@ -33,6 +34,7 @@ _KINDS: dict[str, type[Step]] = {
     "slide": Drive,
     **dict.fromkeys(TURN, Turn),
     "curve": Arc,
+    "wait": Wait,
 }
 SCALES, _SIZES = ("scale", "fold"), ("length", "angle", "turns", "time", "speed", "rate")
 
@@ -125,4 +127,6 @@ def _is_one(atom: Atom) -> bool:
 
 def _is_told(atoms: Sequence[Atom]) -> bool:
     """Whether a bare number may be the one that is to stand for another, or belong to `the two distances`."""
-    return any(atom.kind == "negation" or atom.value in ("amounts", "overshot") for atom in atoms)
+    return any(
+        atom.kind == "negation" or atom.value in ("amounts", "overshot", "same_unit") for atom in atoms
+    )

@@ -13,13 +13,13 @@ from collections.abc import Sequence
 from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
-from chatrobot.language.inverse import inverse
-from chatrobot.language.last_motion import said_unit_m
+from chatrobot.language.inverse import flipped, inverse, is_sideways
+from chatrobot.language.last_motion import said_unit_m, unit_driven_m
 from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _TAKERS: dict[str, tuple[type[Step], ...]] = {
     "length": (Drive,), "angle": (Turn,), "turns": (Turn,), "time": (Drive, Turn, Wait),
@@ -51,10 +51,20 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         if "same_amount" not in edit.flags or any(is_chinese(atom.text) for atom in atoms):
             return None
         raise Unclear("which_way")  # `back right`: aslant, or back to the right?
+    if "same_unit" in edit.flags:
+        if len(steps) != 1:
+            return None
+        edit.flags.discard("same_unit")
+        units = (unit_driven_m(turn) for turn in reversed(dialogue.turns))
+        unit_m = next((unit for unit in units if unit), 0.0)
+        edit.amounts = [_in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        if edit.amount("number"):
+            return None
     if "overshot" in edit.flags:
         if edit.way and edit.amount("number"):
             return None
-        edit.amounts = [_in_unit_before(amount, steps[-1], last.text) for amount in edit.amounts]
+        unit_m = said_unit_m(last.text) or 0.0
+        edit.amounts = [_in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
     return _applied(edit, steps)
 
 
@@ -63,12 +73,14 @@ def _came_from(steps: list[Step], side: str) -> bool:
     [step] = steps if len(steps) == 1 else [None]
     if isinstance(step, Turn):
         return step.left != (side == "left")
-    return step is not None and _is_sideways(step) and _heads_left(step) != (side == "left")
+    return step is not None and is_sideways(step) and _heads_left(step) != (side == "left")
 
 
-def _in_unit_before(amount: Atom, step: Step, said: str) -> Atom:
+def _in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
     """`10 too many`: degrees after a turn, else the unit of the drive."""
-    unit_m = said_unit_m(said) if isinstance(step, Drive) else None
+    unit_m = unit_m if isinstance(step, Drive) else 0.0
+    if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:
+        return quantity("time", amount.number, amount.text)
     if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
         return amount
     name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
@@ -128,9 +140,9 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return None
     if len(edit.amounts) > 1 or (len(steps) > 1 and len({type(step) for step in steps}) == 1):
         return None
-    if edit.way in SIDES and (isinstance(step, Turn) or _is_sideways(step)) and "same_amount" in edit.flags:
+    if edit.way in SIDES and (isinstance(step, Turn) or is_sideways(step)) and "same_amount" in edit.flags:
         return _to_side([step], edit.way == "left", is_named=True, goes_on=True)
-    if edit.way not in ("", "back") or (edit.slides and not _is_sideways(step)):
+    if edit.way not in ("", "back") or (edit.slides and not is_sideways(step)):
         return None
     if edit.way == "back" and _heads_back(step):  # backwards once more, or back to where it came from?
         if not edit.goes_on:
@@ -146,10 +158,6 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
 
 def _heads_back(step: Step) -> bool:
     return isinstance(step, Drive) and step.direction_rad == DIRECTIONS["back"]
-
-
-def _is_sideways(step: Step) -> bool:
-    return isinstance(step, Drive) and step.direction_rad not in (DIRECTIONS["forward"], DIRECTIONS["back"])
 
 
 def _reordered(steps: list[Step], edit: Edit) -> list[Step]:
@@ -192,7 +200,8 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
     for size in edit.amounts:
         role = "radius" if {"radius", "diameter"} & edit.roles else size.value
         number = size.number / 2 if "diameter" in edit.roles else size.number
-        taken = [i for i, step in enumerate(out) if isinstance(step, _TAKERS[role])]
+        takers = tuple(edit.kinds) if Wait in edit.kinds else _TAKERS[role]
+        taken = [i for i, step in enumerate(out) if isinstance(step, takers)]
         each = "each" in edit.flags
         alike = each or role in ("speed", "rate") or len({_size(out[i]) for i in taken}) == 1
         if not taken or not alike or (len(taken) > 1 and role in _OF_ONE and not (edit.roles or each)):
@@ -204,7 +213,7 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
 
 def _to_side(steps: list[Step], left: bool, *, is_named: bool, goes_on: bool) -> list[Step] | None:
     """`Now to the right` after a slide, `now one to the right` after a figure: in the manner of the motion before."""
-    if len(steps) == 1 and _is_sideways(steps[0]):
+    if len(steps) == 1 and is_sideways(steps[0]):
         return steps if _heads_left(steps[0]) == left else [flipped(steps[0])]
     is_named |= goes_on and len(steps) == 1  # `and right`, after `turn left 30`
     return _mirrored(steps, left) if is_named else None
@@ -314,31 +323,15 @@ def _mirrored(steps: list[Step], left: bool) -> list[Step] | None:
     return [flipped(step) for step in steps] if flip else list(steps)
 
 
-def flipped(step: Step) -> Step:
-    """The step with left and right exchanged.
-
-    Raises:
-        Unclear: for a step that is to a place or a heading.
-    """
-    if isinstance(step, Repeat):
-        return Repeat(step.count, tuple(flipped(inner) for inner in step.steps))
-    if isinstance(step, RawTwist):
-        return dataclasses.replace(step, vy_mps=-step.vy_mps, wz_radps=-step.wz_radps)
-    if isinstance(step, (Go, Face)):
-        raise Unclear("nothing_before")
-    if isinstance(step, (Turn, Arc)):
-        return dataclasses.replace(step, left=not step.left)
-    if isinstance(step, Drive) and _is_sideways(step):
-        return dataclasses.replace(step, direction_rad=-step.direction_rad)
-    return step
-
-
 def _rest_of_shape(steps: list[Step], sides: int) -> list[Step] | None:
     """What is missing to a whole circle, or to a polygon of equal sides and turns; `sides` if it was named by them."""
     last = steps[-1]
     if len(steps) == 1 and isinstance(last, Arc) and not sides:
         left = 2 * math.pi - last.angle_rad
         return [dataclasses.replace(last, angle_rad=left)] if left > 1e-3 else None
+    if len(steps) == 1 and isinstance(last, Turn) and last.angle_rad and not sides:
+        times = round(2 * math.pi / last.angle_rad)
+        return [last] * (times - 1) or None if abs(times * last.angle_rad - 2 * math.pi) < 1e-6 else None
     side, turn = steps[:2] if len(steps) > 1 else (None, None)
     if not isinstance(side, Drive) or not isinstance(turn, Turn) or not turn.angle_rad:
         return None

@@ -26,6 +26,8 @@ class State:
     steps: list[Step] = field(default_factory=list)
     direction: str = "forward"
     unit_m: float | None = None
+    chosen_m: float | None = None
+    """The unit that numbers without one were said to be in, metres."""
     length: Atom | None = None
     sizes: dict[str, float] = field(default_factory=dict)
     """The side or the radius of the shape that was driven before, if all of them were alike, metres."""
@@ -141,6 +143,8 @@ def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] |
         return "length", 0.01 if "units_cm" in frame.flags else 1.0
     if degrees or _goes_on_in_degrees(frame, value, state):
         return "angle", math.radians(1.0)
+    if state.chosen_m and not (frame.has_extent or frame.turning or frame.roles) and _goes_somewhere(frame):
+        return "length", state.chosen_m
     if state.unit_m and not frame.has_extent and _goes_on_in_unit(frame, value, state):
         return "length", state.unit_m
     return _unit_by_sense(frame, value, state)
@@ -163,6 +167,11 @@ def _unit_by_sense(frame: Frame, value: float, state: State) -> tuple[str, float
         return "angle", math.radians(1.0)
     along = frame.direction in ("forward", "back") or (frame.verb == "slide" and frame.direction in SIDES)
     return ("length", 1.0) if along and 0 < value <= _MOST_M and not (state.unit_m or frame.flags) else None
+
+
+def _goes_somewhere(frame: Frame) -> bool:
+    along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
+    return along or frame.verb in ("slide", "return") or bool(_SLIDING & frame.flags)
 
 
 def _goes_on_aside(frame: Frame, state: State) -> bool:

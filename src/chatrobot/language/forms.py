@@ -21,7 +21,9 @@ class Definition(NamedTuple):
 
 @cache
 def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    return tuple(re.compile(_in_full(p, language)) for p in load_table(language, "dialogue_forms").get(name, ()))
+    return tuple(
+        re.compile(_in_full(p, language)) for p in load_table(language, "dialogue_forms").get(name, ())
+    )
 
 
 def _in_full(pattern: str, language: str) -> str:

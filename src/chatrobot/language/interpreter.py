@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
 
 from chatrobot import reflex
 from chatrobot.core.event import Proposal
@@ -29,7 +27,7 @@ from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
 from chatrobot.language.facing import without_compass
-from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
+from chatrobot.language.facts import told_of_units, with_earlier_unit, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
@@ -44,8 +42,15 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
+from chatrobot.language.selections import wants_part
 from chatrobot.language.sides import is_side, with_side
-from chatrobot.language.starting import is_withdrawn, mended_alone, with_told_apart, without_call_sign, without_hold
+from chatrobot.language.starting import (
+    is_withdrawn,
+    mended_alone,
+    with_told_apart,
+    without_call_sign,
+    without_hold,
+)
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -195,7 +200,7 @@ class OfflineInterpreter:
             Unclear: where no clause orders anything.
         """
         odds = order_log_odds(reads)
-        if len(reads) == 1 and refers(reads[0].clause):
+        if (len(reads) == 1 and refers(reads[0].clause)) or wants_part(plain, language):
             odds = max(odds, ORDER)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.
@@ -263,11 +268,11 @@ def _in_words(plain: str, reading: Reading) -> Interpretation:
     answered = read_remembering(plain, reading) or _pending(plain, reading)
     if answered is not None:
         return answered
-    unit = defined_unit(plain)
-    if unit is not None:
-        reply = say(reading.language, "unit_set", unit=unit[0], measure=unit[1])
-        return Interpretation("answered", reply, reading.language)
-    return read_command(_with_earlier_unit(plain, reading), reading)
+    told = told_of_units(plain)
+    if told is not None:
+        return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
+    turns = reading.context.dialogue.turns
+    return read_command(with_earlier_unit(plain, [turn.text for turn in turns], reading.language), reading)
 
 
 def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
@@ -334,20 +339,3 @@ def _pending(plain: str, reading: Reading) -> Interpretation | None:
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
-
-
-def _with_earlier_unit(plain: str, reading: Reading) -> str:
-    """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
-    for turn in reversed(reading.context.dialogue.turns):
-        unit = _unit_defined_in(turn.text, reading.language)
-        counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
-        if unit and counted:
-            defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
-            return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
-    return plain
-
-
-@lru_cache(maxsize=128)
-def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
-    """Asked of every earlier turn at each sentence: so each is read once."""
-    return defined_unit(rephrased(normalise(text), language))

@@ -1,11 +1,13 @@
-"""Steps undone: the same way back."""
+"""Steps undone, the same way back; steps with left and right exchanged."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
+from chatrobot.language.frames import DIRECTIONS
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Remember, Repeat, Say, Step, Turn, Wait
 
 
 def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
@@ -36,3 +38,27 @@ def _undone(step: Step, speed_mps: float | None) -> list[Step]:
     if isinstance(step, (Wait, Say, Remember)):
         return []
     raise Unclear("cannot_undo")
+
+
+def flipped(step: Step) -> Step:
+    """The step with left and right exchanged.
+
+    Raises:
+        Unclear: for a step that is to a place or a heading.
+    """
+    if isinstance(step, Repeat):
+        return Repeat(step.count, tuple(flipped(inner) for inner in step.steps))
+    if isinstance(step, RawTwist):
+        return dataclasses.replace(step, vy_mps=-step.vy_mps, wz_radps=-step.wz_radps)
+    if isinstance(step, (Go, Face)):
+        raise Unclear("nothing_before")
+    if isinstance(step, (Turn, Arc)):
+        return dataclasses.replace(step, left=not step.left)
+    if isinstance(step, Drive) and is_sideways(step):
+        return dataclasses.replace(step, direction_rad=-step.direction_rad)
+    return step
+
+
+def is_sideways(step: Step) -> bool:
+    """Whether it drives any other way than ahead or back."""
+    return isinstance(step, Drive) and step.direction_rad not in (DIRECTIONS["forward"], DIRECTIONS["back"])

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.ellipsis import State
-from chatrobot.language.frames import DIRECTIONS
+from chatrobot.language.facts import chosen_unit_m
+from chatrobot.language.frames import DIRECTIONS, EXTENTS, SIDES, Frame
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.tokens import quantity, tokenise
+from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
@@ -34,9 +36,48 @@ def steps_of(record: TurnRecord | None) -> tuple[Step, ...]:
 @lru_cache(maxsize=128)
 def said_unit_m(text: str) -> float | None:
     """The last unit of length in what was said: `another 30` after `50 cm` are centimetres."""
-    atoms = read_quantities(tokenise(normalise(text), lexicon(), {}))
-    units = [float(atom.role) for atom in atoms if atom.value == "length" and atom.role]
+    units = [float(atom.role) for atom in _atoms(text) if atom.value == "length" and atom.role]
     return units[-1] if units else None
+
+
+_UNITS_M = (1.0, 0.01, 0.1, 0.001, 0.0254, 0.3048, 0.9144)
+
+
+def unit_driven_m(record: TurnRecord) -> float | None:
+    """The unit of length that the numbers of a turn of one drive had, said or not; None where nobody can tell."""
+    step = record.plan.steps[0] if record.plan is not None and len(record.plan.steps) == 1 else None
+    said = said_unit_m(record.text)
+    if said or not isinstance(step, Drive) or not step.distance_m:
+        return said
+    numbers = [atom.number for atom in _atoms(record.text) if (atom.kind, atom.value) == ("q", "number")]
+    driven = step.distance_m / numbers[0] if len(numbers) == 1 and numbers[0] > 0.0 else 0.0
+    return next((unit for unit in _UNITS_M if math.isclose(unit, driven, rel_tol=1e-6)), None)
+
+
+def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
+    """A lone amount, or a lone side, goes on after a motion that said its own; else nobody can tell.
+
+    Raises:
+        Unclear: `90 degrees` after `turn left`: so much more, or so much in all? `Clockwise` after `turn 180`?
+    """
+    last = dialogue.last_motion
+    if len(frames) != 1 or last is None or last.plan is None or len(last.plan.steps) != 1:
+        return
+    frame, step = frames[0], last.plan.steps[0]
+    sizes = {"length", "angle", "turns"} & set(frame.q)
+    if frame.verb or frame.flags or frame.roles or frame.place or frame.shape or len(frame.q) != len(sizes):
+        return
+    way = frame.direction or frame.rot
+    said = {atom.value if atom.kind == "q" else atom.kind for atom in _atoms(last.text)}
+    fits = isinstance(step, Drive) if "length" in sizes else isinstance(step, Turn) and sizes
+    size_open = fits and not way and not said & set(EXTENTS)
+    side_open = isinstance(step, Turn) and way in SIDES and not sizes and not said & {"dir", "rot"}
+    if (size_open and "number" not in said) or (side_open and "uturn" not in said):
+        raise Unclear("unclear_motion", frame.text)
+
+
+def _atoms(text: str) -> list[Atom]:
+    return read_quantities(tokenise(normalise(text), lexicon(), {}))
 
 
 def unit_after(context: Context) -> str:
@@ -53,12 +94,16 @@ def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
     last = context.dialogue.last_motion
     state = State(home=context.dialogue.start_pose if last is not None else None)
+    chosen = (chosen_unit_m(turn.text) for turn in reversed(context.dialogue.turns))
+    state.chosen_m = next((unit for unit in chosen if unit), None)
     if last is None or last.plan is None:
         return state
     sides = [step.distance_m for step in last.plan.steps if isinstance(step, Drive) and step.distance_m]
     radii = [step.radius_m for step in last.plan.steps if isinstance(step, Arc)]
+    if len(sides) == len(last.plan.steps) > 1 and len(set(sides)) == 1:
+        state.sizes["step"] = sides[0]
     drawn = ("side", sides, _LEAST_SIDES), ("radius", radii, 1)
-    state.sizes = {name: of[0] for name, of, least in drawn if len(set(of)) == 1 and len(of) >= least}
+    state.sizes |= {name: of[0] for name, of, least in drawn if len(set(of)) == 1 and len(of) >= least}
     for step in reversed(last.plan.steps):
         if isinstance(step, Drive):
             state.last = "drive"

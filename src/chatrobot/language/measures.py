@@ -16,7 +16,8 @@ from chatrobot.plan.steps import MAX_REPEAT
 class Measures:
     """What is said about a shape: lengths with the roles they were said with, in order.
 
-    `text` is what was said of it, `default_m` the size it has where nothing is said.
+    `text` is what was said of it, `default_m` the size it has where nothing is said; `some_sides` how many of its sides
+    are to be driven, 0 for all.
     """
 
     shape: str = ""
@@ -34,6 +35,7 @@ class Measures:
     angle_rad: float | None = None
     seconds: float | None = None
     speed: float | None = None
+    some_sides: int = 0
 
     def with_role(self, *roles: str) -> float | None:
         """The first length that was said with one of these roles."""
@@ -128,6 +130,8 @@ def _is_its_size(head: Frame, part: Frame, amount: Atom) -> bool:
 def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:
     if part.shape == "polygon" and name == "number":
         found.counts["side"] = whole_number(value)
+    elif name == "number" and _counts_sides(part, part.q["number"].text):
+        found.some_sides = whole_number(value)
     elif part.shape == "circle" or (name == "times" and part.q["times"].value == "turns"):
         rounds = value / (2 * math.pi) if part.q[name].value == "turns" else value
         if 0 < rounds < 1 or (rounds < 10 and rounds * 4 == int(rounds * 4)):
@@ -136,6 +140,13 @@ def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:
             found.times *= whole_number(rounds)
     else:
         found.times *= whole_number(value)
+
+
+def _counts_sides(part: Frame, number: str) -> bool:
+    """`Two sides of a square`, `a square, four sides of 1 m`: no two and no four squares."""
+    at = part.texts.index(number) + 1 if number in part.texts else len(part.texts)
+    of = part.texts[at].split()[-1:] if at < len(part.texts) else []
+    return part.roles[:1] == ["side"] and of == ["of"]
 
 
 def whole_number(value: float, said: str = "") -> int:

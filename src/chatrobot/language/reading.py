@@ -23,13 +23,15 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.meant import instead
 from chatrobot.language.multiples import in_shares, with_multiples
 from chatrobot.language.names import names_in
+from chatrobot.language.numbers import is_chinese
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.restated import without_restated
+from chatrobot.language.restated import without_lone_way, without_restated
 from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import Walked
 from chatrobot.language.writing import write
 from chatrobot.plan.base import rounded_angle
@@ -44,7 +46,7 @@ def frames_of(atoms: Sequence[Atom]) -> list[Frame]:
         Unclear: for a word that nothing accounts for.
     """
     settled = settle_condition(with_defined_units(without_chatter(with_announced(unrolled(atoms)))))
-    return read_frames(tidy(without_negated(in_order(corrected(settled)))))
+    return without_lone_way(read_frames(tidy(without_negated(in_order(corrected(settled))))))
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ class Reading:
         """The atoms of a normalised text."""
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
         atoms = without_restated(in_shares(with_multiples(with_slips(read_quantities(atoms)))))
-        atoms = back_to_places(with_headings(atoms, self.facing_rad))
+        atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
             atoms = [Atom("shape", "lawn", a.text) if a.text == "mow the lawn" else a for a in atoms]
@@ -100,6 +102,11 @@ class Reading:
         if _goes_on_after_undo(frames):  # `undo that and go back 1 m`
             undone = walked(frames[:1], self.context, self.pace)
             return [*(undone.steps if undone else ()), *self.steps_of_their_own(frames[1:])]
+        if _goes_on_after_again(frames):  # `the same to the right, then forward 1 m`
+            again = refer(frames[:1], self.context, self.pace)
+            if again is None or any("again" in frame.flags for frame in frames[1:]):
+                raise Unclear("unclear_motion", frames[0].text)
+            return [*again, *self.steps_of_their_own(frames[1:])]
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
@@ -124,3 +131,22 @@ def _goes_on_after_undo(frames: Sequence[Frame]) -> bool:
         return False
     after, told = frames[1], frames[1].has_extent or "number" in frames[1].q
     return bool((told or after.direction) and (after.joined in ("and", "then") or (told and after.moves)))
+
+
+def _goes_on_after_again(frames: Sequence[Frame]) -> bool:
+    """Whether the motion before is only the first of what is wanted."""
+    if len(frames) < 2 or frames[0].verb or frames[1].joined != "then" or not frames[1].moves:
+        return False
+    return "again" in frames[0].flags and not frames[0].q and not is_chinese(frames[0].text)
+
+
+def _done_as_taught(atoms: Sequence[Atom]) -> list[Atom]:
+    """`Run the salsa`, `go zoom`: the verb right before a word that was taught drives nothing of its own."""
+    out: list[Atom] = []
+    for atom in atoms:
+        if atom.kind == "defined":
+            at = next((i for i in range(len(out) - 1, -1, -1) if out[i].kind != "glue"), -1)
+            if at >= 0 and (out[at].kind, out[at].value) == ("verb", "go"):
+                out[at] = Atom("verb", "make", out[at].text)
+        out.append(atom)
+    return out

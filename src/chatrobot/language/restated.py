@@ -1,4 +1,7 @@
-"""三尺，也就是一米: an amount that is said again in other words. It is one amount, and both must agree."""
+"""三尺，也就是一米: an amount that is said again in other words. It is one amount, and both must agree.
+
+`Left! Move left 50 cm`: a way that is said again with its motion.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.frames import Frame
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -41,6 +45,21 @@ def without_restated(atoms: Sequence[Atom]) -> list[Atom]:
         if _only_explains(out):
             del out[-2:]
     return out
+
+
+def without_lone_way(frames: Sequence[Frame]) -> list[Frame]:
+    """`Left! Move left 50 cm`: the frames without a way that the sentence after it says again."""
+    said = [*frames[1:], None]
+    return [frame for frame, after in zip(frames, said) if after is None or not _says_again(frame, after)]
+
+
+def _says_again(frame: Frame, after: Frame) -> bool:
+    way = frame.direction or frame.rot
+    lone = bool(way) and frame == Frame(
+        direction=frame.direction, rot=frame.rot, texts=frame.texts, joined=frame.joined, opens=frame.opens
+    )
+    same = way in (after.direction, after.rot) and bool(after.verb) and after.has_extent
+    return lone and after.joined == "strong" and same
 
 
 def _only_explains(out: Sequence[Atom]) -> bool:

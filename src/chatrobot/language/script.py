@@ -65,7 +65,7 @@ def act_out(script: Script, frame: Frame) -> None:
     Raises:
         Unclear: where it cannot be acted on.
     """
-    count, each = _counted(frame)
+    count, each = _counted(frame, script.state)
     if "times" in frame.q:
         count *= whole_count(frame.q["times"])
         if _is_split(frame):
@@ -82,8 +82,8 @@ def _is_split(frame: Frame) -> bool:
     return "split" in frame.flags and "each" not in frame.flags
 
 
-def _counted(frame: Frame) -> tuple[int, Frame]:
-    """`three legs of 50 cm`, `take two steps`: how many, and one of them."""
+def _counted(frame: Frame, state: State) -> tuple[int, Frame]:
+    """`three legs of 50 cm`, `take two steps`: how many, and one of them; `two steps back`, after five of 20 cm."""
     if "count" not in frame.q:
         return 1, frame
     each, said = frame.copy(), frame.q["count"]
@@ -94,6 +94,10 @@ def _counted(frame: Frame) -> tuple[int, Frame]:
             length = frame.q["length"]
             each.q["length"] = quantity("length", length.number / count, length.text)
         return count, each
+    size_m = state.sizes.get("step")
+    if said.role in ("step", "move") and size_m is not None and not each.has_extent:
+        each.q["length"] = quantity("length", size_m, said.text)
+        return whole_count(said), each
     if said.role != "move":
         raise Unclear("how_long_a_step", said.text)
     each.flags.add("bit")

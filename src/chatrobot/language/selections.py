@@ -13,10 +13,12 @@ from typing import Any
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
+from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import resized
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _KINDS: dict[str, tuple[type[Step], ...]] = {
     "step": (Step,),
@@ -24,6 +26,7 @@ _KINDS: dict[str, tuple[type[Step], ...]] = {
     "leg": (Drive, Arc),
     "said": (Step,),
     "move": (Step,),
+    "wait": (Wait,),
 }
 
 
@@ -63,6 +66,129 @@ def selected(
         raise Unclear("nothing_before", plain)
     times = whole_number(counts[0].number, counts[0].text) if counts else 1
     return [step for unit in chosen for step in unit] * times
+
+
+def part_of_before(
+    plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
+) -> list[Step] | None:
+    """The steps of what was done that a normalised text wants again, by their parts; None where it names no part.
+
+    Raises:
+        Unclear: there is no such part.
+    """
+    return (
+        left_out(plain, language, dialogue)
+        or further(plain, language, dialogue)
+        or with_part_resized(plain, language, dialogue, atoms_of)
+        or listed(plain, language, dialogue)
+        or selected(plain, language, dialogue, atoms_of)
+    )
+
+
+def wants_part(plain: str, language: str) -> bool:
+    """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
+    names = ("without", "without_nth", "resized", "listed", "further")
+    return any(form.fullmatch(plain) for name in names for form in _forms(language, name))
+
+
+def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """The last motion without the part of it that is named: `everything but the wait`; None where none is left out.
+
+    Raises:
+        Unclear: there is no such part, there are several, or nothing would be left.
+    """
+    last = dialogue.last_motion
+    forms = *_forms(language, "without"), *_forms(language, "without_nth")
+    found = next(filter(None, (form.fullmatch(plain) for form in forms)), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
+    named = said.get("kind", "")
+    kind = next((kind for kind, words in table["kinds"].items() if named in words), "step")
+    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    nth = _number(said, "nth", table)
+    if nth:
+        at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
+    many = named in table["plurals"] and not nth
+    rest = [step for i, step in enumerate(steps) if i not in at]
+    if not at or (len(at) > 1 and not many) or all(isinstance(step, Wait) for step in rest):
+        raise Unclear("unclear_motion", plain[:60])
+    return rest
+
+
+def with_part_resized(
+    plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
+) -> list[Step] | None:
+    """The last motion with another size of one part: `the same, but the first leg 2 m`; None for anything else.
+
+    Raises:
+        Unclear: there is no such part, or it takes no such size.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    atoms = [atom for atom in atoms_of(found["size"]) if atom.kind not in SILENT]
+    table, said, steps = (
+        load_table(language, "selections"),
+        found.groupdict(default=""),
+        list(last.plan.steps),
+    )
+    if len(atoms) != 1 or atoms[0].kind != "q":
+        return None
+    kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
+    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    nth = _number(said, "nth", table)
+    at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
+    changed = resized([steps[at[0]]], Edit(amounts=[atoms[0]])) if at else None
+    if changed is None:
+        raise Unclear("unclear_motion", plain[:60])
+    return [*steps[: at[0]], *changed, *steps[at[0] + 1 :]]
+
+
+def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """`Only steps 2 and 3`: these parts of the last motion; None where none are listed.
+
+    Raises:
+        Unclear: there are no such parts.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "listed"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
+    at = [_number({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
+    at = [n + len(steps) + 1 if n < 0 else n for n in at]
+    if not all(1 <= n <= len(steps) for n in at) or len(steps) < 2:
+        raise Unclear("nothing_before", plain)
+    return [steps[n - 1] for n in at]
+
+
+def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
+    """`Do that` after a question: what was asked about, and not the motion before.
+
+    Raises:
+        Unclear: nobody can tell what that is.
+    """
+    words = load_table(language, "selections").get("spoken_of", ())
+    last = dialogue.turns[-1] if dialogue.turns else None
+    if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
+        raise Unclear("nothing_before", plain[:60])
+
+
+def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """`One more step`, after three alike: so many more of them; None where the last motion was nothing so often.
+
+    What is counted must be what was repeated.
+    """
+    last = dialogue.last_motion
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "further"))), None)
+    if last is None or last.plan is None or found is None:
+        return None
+    steps = list(last.plan.steps)
+    once = next(n for n in range(1, len(steps) + 1) if steps == steps[:n] * (len(steps) // n))
+    count = _number(found.groupdict(default=""), "count", load_table(language, "selections")) or 1
+    return steps[:once] * count if once < len(steps) else None
 
 
 def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
@@ -110,6 +236,6 @@ def points_at_before(atom: Atom, language: str) -> bool:
 def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:
     """The one length of `now with 50 cm`, which takes the place of the one before; None for anything else."""
     sized = [atom for atom in atoms if atom.kind == "q"]
-    others = [atom for atom in atoms if atom.kind not in ("q", "filler", "glue", "sep")]
+    others = [a for a in atoms if a.kind not in ("q", "filler", "glue", "sep") and a.value != "again"]
     opened = plain.startswith(tuple(load_table(language, "selections").get("with", ())))
     return sized[0] if opened and not others and len(sized) == 1 and sized[0].value == "length" else None

@@ -17,7 +17,10 @@ def tells_side(parts: Sequence[Frame], rest: Sequence[Frame]) -> bool:
         Unclear: where it may be a turn after the shape, or the shape turns the other way.
     """
     turn = rest[0]
-    bare = turn.verb == "turn" and turn.sided and not (turn.q or turn.shape or turn.place or turn.roles)
+    is_turn = turn.verb == "turn" or (
+        not turn.verb and bool(turn.flags & _AT_CORNERS)
+    )  # `left at each corner`
+    bare = is_turn and turn.sided and not (turn.q or turn.shape or turn.place or turn.roles)
     if not bare or turn.joined == "then" or turn.flags - _AT_CORNERS:
         return False
     at_corners = bool(turn.flags)

@@ -1,4 +1,4 @@
-"""How a text begins and ends: the call sign of the robot, a bare `go`, what is told after an order, held or taken back."""
+"""How a text begins and ends: what opens it, a bare `go`, what is told after an order, held or taken back."""
 
 from __future__ import annotations
 

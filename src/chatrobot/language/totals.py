@@ -7,7 +7,8 @@ import math
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
-from chatrobot.language.last_motion import said_unit_m, steps_of
+from chatrobot.language.last_motion import steps_of, unit_driven_m
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.manner import Pace
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
@@ -25,11 +26,14 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     assert last is not None
     moved = last.end_pose.relative_to(last.start_pose)
     step = steps[-1]
-    whole = _with_unit(whole, last.text, step)
+    said = set(whole.q)
+    whole = _with_unit(whole, last, step)
     if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
+        if "number" in said and not done / 10 <= whole.q["length"].number <= 10 * done:
+            raise Unclear("no_unit", whole.text)  # `too slow, 0.2`: hardly 0.2 cm, after 30 cm
         if "again" in whole.flags:
             raise Unclear("contradiction", whole.text)  # more, or a total?
         missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
@@ -47,10 +51,10 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     raise Unclear("nothing_before", whole.text)
 
 
-def _with_unit(whole: Frame, text: str, step: Step) -> Frame:
+def _with_unit(whole: Frame, last: TurnRecord, step: Step) -> Frame:
     """`make that 60`, after a turn: degrees; after a drive: in the unit that was said."""
     number = whole.q.get("number")
-    unit_m = said_unit_m(text) if isinstance(step, Drive) else None
+    unit_m = unit_driven_m(last) if isinstance(step, Drive) else None
     if number is None or not (unit_m or isinstance(step, Turn)):
         return whole
     whole = whole.copy()

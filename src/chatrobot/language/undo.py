@@ -71,7 +71,8 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     ):
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
-    if "last_step" in whole.flags or (counts and counts[0].role == "step"):
+    few = 1 == len(context.dialogue.ledger.done) < count
+    if "last_step" in whole.flags or (counts and counts[0].role == "step") or few:
         turns = _last_steps(int(count), context, whole.text)
     if not isinstance(turns, int):
         taken_back(context, profile, 1)
