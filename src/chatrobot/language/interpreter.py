@@ -45,7 +45,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased
 from chatrobot.language.sides import is_side, with_side
-from chatrobot.language.starting import is_withdrawn, mended_alone, without_call_sign, without_hold
+from chatrobot.language.starting import mended_alone, not_ordered, without_call_sign, without_hold
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
@@ -94,9 +94,8 @@ class OfflineInterpreter:
         text = mended_alone(without_call_sign(normalise(text), language))
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        if offers and is_withdrawn(text, language):
-            return asked_back(Unclear("taken_back", text), language)
-        return meant
+        reason = not_ordered(text, language) if offers else ""
+        return asked_back(Unclear(reason, text), language) if reason else meant
 
     def _meant(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         try:
