@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
 
 from chatrobot import reflex
 from chatrobot.core.event import Proposal
@@ -22,12 +20,13 @@ from chatrobot.language.acts import (
     without,
     without_requests,
 )
-from chatrobot.language.answers import changes_nothing_said, with_answered_amount, with_manner
+from chatrobot.language.answers import with_manner
 from chatrobot.language.beside import any_may_bear, are_asides, refers
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
+from chatrobot.language.earlier_turns import answer_to_question, with_earlier_unit
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import defined_unit, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
@@ -43,10 +42,8 @@ from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
-from chatrobot.language.rephrase import is_item, rephrased
-from chatrobot.language.sides import is_side, with_side
+from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.starting import mended_alone, not_ordered, without_call_sign, without_hold
-from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
@@ -68,9 +65,6 @@ _OF_AN_ORDER = frozenset(
     }
 )
 """What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
-
-_REFERRING = frozenset({"same_amount", "again", "more"})
-"""Flags of what points at the motion before, and answers no question."""
 
 
 class OfflineInterpreter:
@@ -101,12 +95,18 @@ class OfflineInterpreter:
         try:
             return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
+            parted = text if problem.refused else with_breaks(text, language)
+            meant = self._meant(parted, language, context) if parted != text else None
+            if meant is not None and meant.plan is not None:
+                return meant
             reading = Reading(language, context, self._profile)
             asked = (
                 _did_you_mean(problem, text, reading)
                 or self._remarked(text, reading)
                 or self._likeliest(problem, text, reading)
             )
+            if asked is None and meant is not None and meant.proposal is not None:
+                return meant
             return replace(asked or asked_back(problem, language), corrects=says_meant(text))
 
     def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
@@ -259,14 +259,14 @@ def _in_words(plain: str, reading: Reading) -> Interpretation:
     definition = forms.read_definition(plain, reading.language)
     if definition is not None:
         return _defined(definition, reading)
-    answered = read_remembering(plain, reading) or _pending(plain, reading)
+    answered = read_remembering(plain, reading) or answer_to_question(plain, reading)
     if answered is not None:
         return answered
     unit = defined_unit(plain)
     if unit is not None:
         reply = say(reading.language, "unit_set", unit=unit[0], measure=unit[1])
         return Interpretation("answered", reply, reading.language)
-    return read_command(_with_earlier_unit(plain, reading), reading)
+    return read_command(with_earlier_unit(plain, reading), reading)
 
 
 def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
@@ -301,52 +301,3 @@ def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretati
         code="did_you_mean_place",
         proposal=Proposal(format_plan(plan), ask),
     )
-
-
-def _pending(plain: str, reading: Reading) -> Interpretation | None:
-    """A fragment answers what was asked back about the turn before."""
-    pending = reading.context.dialogue.pending
-    if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
-        return None
-    if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
-        return None
-    if changes_nothing_said(normalise(pending), reading):
-        return None  # it was to change a plan, and did not: nothing is to stay of it
-    before = rephrased(normalise(pending), reading.language)
-    atoms = tidy(reading.atoms(plain))
-    ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
-    verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
-    if any(a.kind in ("verb", "shape", "place") or a.value in _REFERRING for a in verbs):
-        return None
-    amended = with_answered_amount(before, plain, reading)
-    if amended is not None:
-        return amended
-    sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
-    for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
-        try:
-            found = read_command(joined, reading)
-        except Unclear:
-            continue
-        if found.outcome == "plan":
-            return found
-    if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
-        # What it is the side of was not understood: to turn there is no answer.
-        raise Unclear("no_unit", pending)
-    return None
-
-
-def _with_earlier_unit(plain: str, reading: Reading) -> str:
-    """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
-    for turn in reversed(reading.context.dialogue.turns):
-        unit = _unit_defined_in(turn.text, reading.language)
-        counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
-        if unit and counted:
-            defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
-            return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
-    return plain
-
-
-@lru_cache(maxsize=128)
-def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
-    """Asked of every earlier turn at each sentence: so each is read once."""
-    return defined_unit(rephrased(normalise(text), language))
