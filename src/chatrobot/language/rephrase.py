@@ -131,6 +131,8 @@ def rephrased(text: str, language: str) -> str:
 
 def with_breaks(text: str, language: str) -> str:
     """`text` (normalised) with the commas that dictation leaves out: 转三圈我看看 is 转三圈, 我看看."""
+    if re.search(load_table(language, "rephrase").get("unbroken", ""), text):
+        return text
     for rule, said in _rules(language, "breaks"):
         text = rule.sub(said, text)
     return text
