@@ -81,7 +81,7 @@ def insert(script: Script, frame: Frame) -> None:
 
 
 def _passes(units: list[list[Step]]) -> list[list[Step]]:
-    """前进一米，右转，做四遍，每次之间停一秒: what is done each time, as one unit; as they are where nothing is repeated."""
+    """前进一米，右转，做四遍，每次之间停一秒: what is done each time, as one unit."""
     once = len(period(units))
     if not 1 < once < len(units):
         return units
