@@ -9,7 +9,6 @@ from functools import cache, lru_cache
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.rephrase import rephrased
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Plan
@@ -94,23 +93,6 @@ def told_of_units(text: str) -> tuple[str, dict[str, str]] | None:
         return "unit_set", {"unit": defined[0], "measure": defined[1]}
     word = _unit_chosen(text)
     return ("unit_chosen", {"unit": word}) if word else None
-
-
-def with_earlier_unit(plain: str, before: Sequence[str], language: str) -> str:
-    """一步是三十厘米, said in a turn `before`: it holds for the steps that are counted now."""
-    for text in reversed(before):
-        unit = _unit_defined_in(text, language)
-        counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
-        if unit and counted:
-            defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
-            return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
-    return plain
-
-
-@lru_cache(maxsize=128)
-def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
-    """Asked of every earlier turn at each sentence: so each is read once."""
-    return defined_unit(rephrased(normalise(text), language))
 
 
 @lru_cache(maxsize=128)

@@ -20,14 +20,15 @@ from chatrobot.language.acts import (
     without,
     without_requests,
 )
-from chatrobot.language.answers import changes_nothing_said, with_answered_amount, with_manner
+from chatrobot.language.answers import with_manner
 from chatrobot.language.beside import any_may_bear, are_asides, refers
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
+from chatrobot.language.earlier_turns import answer_to_question, with_earlier_unit
 from chatrobot.language.facing import without_compass
-from chatrobot.language.facts import told_of_units, with_earlier_unit, with_known_counts, with_measured_things
+from chatrobot.language.facts import told_of_units, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
@@ -41,17 +42,15 @@ from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
-from chatrobot.language.rephrase import is_item, rephrased
+from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
-from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.starting import (
-    is_withdrawn,
     mended_alone,
+    not_ordered,
     with_told_apart,
     without_call_sign,
     without_hold,
 )
-from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
@@ -73,9 +72,6 @@ _OF_AN_ORDER = frozenset(
     }
 )
 """What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
-
-_REFERRING = frozenset({"same_amount", "again", "more"})
-"""Flags of what points at the motion before, and answers no question."""
 
 
 class OfflineInterpreter:
@@ -99,20 +95,25 @@ class OfflineInterpreter:
         text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        if offers and is_withdrawn(text, language):
-            return asked_back(Unclear("taken_back", text), language)
-        return meant
+        reason = not_ordered(text, language) if offers else ""
+        return asked_back(Unclear(reason, text), language) if reason else meant
 
     def _meant(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         try:
             return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
+            parted = text if problem.refused else with_breaks(text, language)
+            meant = self._meant(parted, language, context) if parted != text else None
+            if meant is not None and meant.plan is not None:
+                return meant
             reading = Reading(language, context, self._profile)
             asked = (
                 _did_you_mean(problem, text, reading)
                 or self._remarked(text, reading)
                 or self._likeliest(problem, text, reading)
             )
+            if asked is None and meant is not None and meant.proposal is not None:
+                return meant
             return replace(asked or asked_back(problem, language), corrects=says_meant(text))
 
     def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
@@ -265,14 +266,13 @@ def _in_words(plain: str, reading: Reading) -> Interpretation:
     definition = forms.read_definition(plain, reading.language)
     if definition is not None:
         return _defined(definition, reading)
-    answered = read_remembering(plain, reading) or _pending(plain, reading)
+    answered = read_remembering(plain, reading) or answer_to_question(plain, reading)
     if answered is not None:
         return answered
     told = told_of_units(plain)
     if told is not None:
         return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
-    turns = reading.context.dialogue.turns
-    return read_command(with_earlier_unit(plain, [turn.text for turn in turns], reading.language), reading)
+    return read_command(with_earlier_unit(plain, reading), reading)
 
 
 def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
@@ -307,35 +307,3 @@ def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretati
         code="did_you_mean_place",
         proposal=Proposal(format_plan(plan), ask),
     )
-
-
-def _pending(plain: str, reading: Reading) -> Interpretation | None:
-    """A fragment answers what was asked back about the turn before."""
-    pending = reading.context.dialogue.pending
-    if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
-        return None
-    if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
-        return None
-    if changes_nothing_said(normalise(pending), reading):
-        return None  # it was to change a plan, and did not: nothing is to stay of it
-    before = rephrased(normalise(pending), reading.language)
-    atoms = tidy(reading.atoms(plain))
-    ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
-    verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
-    if any(a.kind in ("verb", "shape", "place") or a.value in _REFERRING for a in verbs):
-        return None
-    amended = with_answered_amount(before, plain, reading)
-    if amended is not None:
-        return amended
-    sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
-    for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
-        try:
-            found = read_command(joined, reading)
-        except Unclear:
-            continue
-        if found.outcome == "plan":
-            return found
-    if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
-        # What it is the side of was not understood: to turn there is no answer.
-        raise Unclear("no_unit", pending)
-    return None

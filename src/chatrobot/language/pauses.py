@@ -9,11 +9,13 @@ from chatrobot.language.actions import act
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.repeats import period
 from chatrobot.language.script import Script
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Say, Step, Turn, Wait
 
 _MIDDLE = frozenset({"中间", "当中"})
+_PASSES = frozenset({"每次", "两次"})
 
 
 def paced_legs(frames: list[Frame], pace: Pace) -> list[Step] | None:
@@ -68,12 +70,22 @@ def insert(script: Script, frame: Frame) -> None:
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
     pause = all(isinstance(s, (Wait, Say)) for s in steps)
+    if "between" in frame.flags and _PASSES & {text[:2] for text in frame.texts}:
+        moving = _passes(moving)
     units: list[list[Step]] = []
     for k, unit in enumerate(moving):
         units.append(unit)
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _passes(units: list[list[Step]]) -> list[list[Step]]:
+    """前进一米，右转，做四遍，每次之间停一秒: what is done each time, as one unit."""
+    once = len(period(units))
+    if not 1 < once < len(units):
+        return units
+    return [[step for unit in units[k : k + once] for step in unit] for k in range(0, len(units), once)]
 
 
 def insert_halfway(script: Script, frame: Frame) -> None:

@@ -14,10 +14,10 @@ from chatrobot.language.normalise import has_chinese, normalise
 
 
 @cache
-def _rules(language: str) -> tuple[tuple[re.Pattern[str], str], ...]:
+def _rules(language: str, name: str = "rules") -> tuple[tuple[re.Pattern[str], str], ...]:
     table = load_table(language, "rephrase")
     parts: dict[str, str] = table.get("parts", {})
-    return tuple((re.compile(_in_full(pattern, parts)), said) for pattern, said in table.get("rules", ()))
+    return tuple((re.compile(_in_full(pattern, parts)), said) for pattern, said in table.get(name, ()))
 
 
 def _in_full(pattern: str, parts: Mapping[str, str]) -> str:
@@ -126,6 +126,15 @@ def rephrased(text: str, language: str) -> str:
     for rule, said in _rules(language):
         if rule.search(text):  # most do not match, and to prepare `said` takes longer than to see that
             text = rule.sub(said, text)
+    return text
+
+
+def with_breaks(text: str, language: str) -> str:
+    """`text` (normalised) with the commas that dictation leaves out: 转三圈我看看 is 转三圈, 我看看."""
+    if re.search(load_table(language, "rephrase").get("unbroken", ""), text):
+        return text
+    for rule, said in _rules(language, "breaks"):
+        text = rule.sub(said, text)
     return text
 
 

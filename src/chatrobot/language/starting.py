@@ -54,9 +54,14 @@ def mended_alone(text: str) -> str:
     return word if lexicon().words.get((word,)) in _ALONE else text
 
 
-def is_withdrawn(plain: str, language: str) -> bool:
-    """Whether a normalised text takes back at its end what it ordered before: `go ahead, no wait, don't go`."""
-    return bool(_pattern(language, "withdrawn").search(plain))
+def not_ordered(plain: str, language: str) -> str:
+    """Why what a normalised text seems to order is not to be done, as a reason; "" where nothing says so.
+
+    It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted.
+    """
+    if _pattern(language, "withdrawn").search(plain):
+        return "taken_back"
+    return "nothing_to_do" if _pattern(language, "told").search(plain) else ""
 
 
 @cache

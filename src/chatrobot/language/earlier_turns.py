@@ -1,0 +1,70 @@
+"""What a text owes to the turns before it: the question it answers, and the unit it counts in."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts
+from chatrobot.language.answers import changes_nothing_said, with_answered_amount
+from chatrobot.language.command import read_command
+from chatrobot.language.facts import defined_unit
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.normalise import MAX_CHARACTERS, normalise
+from chatrobot.language.reading import Reading
+from chatrobot.language.rephrase import rephrased
+from chatrobot.language.sides import is_side, with_side
+from chatrobot.language.tidy import tidy
+from chatrobot.language.unclear import Unclear
+
+_REFERRING = frozenset({"same_amount", "again", "more"})
+"""Flags of what points at the motion before, and answers no question."""
+
+
+def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
+    """A fragment answers what was asked back about the turn before."""
+    pending = reading.context.dialogue.pending
+    if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
+        return None
+    if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
+        return None
+    if changes_nothing_said(normalise(pending), reading):
+        return None  # it was to change a plan, and did not: nothing is to stay of it
+    before = rephrased(normalise(pending), reading.language)
+    atoms = tidy(reading.atoms(plain))
+    ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
+    verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
+    if any(a.kind in ("verb", "shape", "place") or a.value in _REFERRING for a in verbs):
+        return None
+    amended = with_answered_amount(before, plain, reading)
+    if amended is not None:
+        return amended
+    sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
+    for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
+        try:
+            found = read_command(joined, reading)
+        except Unclear:
+            continue
+        if found.outcome == "plan":
+            return found
+    if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
+        # What it is the side of was not understood: to turn there is no answer.
+        raise Unclear("no_unit", pending)
+    return None
+
+
+def with_earlier_unit(plain: str, reading: Reading) -> str:
+    """一步是三十厘米, said in a turn before: it holds for the steps that are counted now."""
+    for turn in reversed(reading.context.dialogue.turns):
+        unit = _unit_defined_in(turn.text, reading.language)
+        counted = unit and re.search(rf"(?:[零一二两三四五六七八九十百\d]|半) ?{unit[0]}", plain)
+        if unit and counted:
+            defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
+            return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
+    return plain
+
+
+@lru_cache(maxsize=128)
+def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
+    """Asked of every earlier turn at each sentence: so each is read once."""
+    return defined_unit(rephrased(normalise(text), language))
