@@ -79,7 +79,8 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
     if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
         return inverse(list(drives), speed)
-    if state.home is not None and not drives:
+    about = _has_turned_about(state) and all(isinstance(step, Turn) for step in drives)
+    if state.home is not None and (about or not drives):
         return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
