@@ -129,9 +129,10 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     size = with_another_size(plain, atoms, language)
     if size is not None and len(before) > 1:
         sized = resized(list(before), Edit(amounts=[size], roles={"side"}))
-        if sized is None:
+        if sized is not None:
+            return sized
+        if not any(a.value == "again" for a in atoms):
             raise Unclear("which_size", size.text)  # `now with 30 cm` after sides of two lengths
-        return sized
     if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
         own = frames_of(atoms[:-2])
         if any(frame.moves for frame in own):
