@@ -34,7 +34,7 @@ def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
 
 
 _ITEM = re.compile(r"\s*\(?(\d{1,2})(?:[、:)] ?|[.,](?: |(?=[^\d\s])))")
-_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})[.):] ?(?=[a-z])")
+_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})[.):](?: ?(?=[a-z])| (?=\d))")
 _LETTERED = re.compile(r"(?:^|(?<=\s))\(?([a-h])\) ?(?=[a-z\d])")
 _LETTERS = "abcdefgh"
 _NUMBERED = re.compile(r"(?:^|(?<=[\n;。:!.]))\s*(\d{1,2})[、:] ?(?=[^\d\s])")
