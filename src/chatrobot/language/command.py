@@ -150,7 +150,9 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
 
 def _refers(frame: Frame) -> bool:
     """Whether it takes more than its side from the motion before: `then back`, 再走两遍."""
-    return "times" in frame.q or frame.verb == "return" or (frame.direction == "back" and not frame.has_extent)
+    return (
+        "times" in frame.q or frame.verb == "return" or (frame.direction == "back" and not frame.has_extent)
+    )
 
 
 def _after_again(atoms: list[Atom]) -> list[Atom]:

@@ -58,9 +58,7 @@ def tables(language: str) -> Tables:
     )
     return Tables(
         words=words,
-        dialect={
-            written: plain for plain, listed in rest["dialect"].items() for written in listed
-        },
+        dialect={written: plain for plain, listed in rest["dialect"].items() for written in listed},
         longest=longest,
         before=before,
         rules=rules,

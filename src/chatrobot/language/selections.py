@@ -111,7 +111,9 @@ def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom 
     """The one length of `now with 50 cm`, `the same with 50 cm`, for the one before; None for anything else."""
     sized = [atom for atom in atoms if atom.kind == "q"]
     again = any(atom.value == "again" for atom in atoms)
-    others = [atom for atom in atoms if atom.kind not in ("q", "filler", "glue", "sep") and atom.value != "again"]
+    others = [
+        atom for atom in atoms if atom.kind not in ("q", "filler", "glue", "sep") and atom.value != "again"
+    ]
     with_ = tuple(load_table(language, "selections").get("with", ()))
     before = atoms[atoms.index(sized[0]) - 1].text if again and sized else ""
     opened = plain.startswith(with_) or f"{before} " in with_
