@@ -1,4 +1,4 @@
-"""Things people say, a thousand in two languages: none may be done wrongly, and ever fewer be asked back about."""
+"""Things people say, a thousand in three languages: none may be done wrongly, and ever fewer be asked back about."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 997, "en": 121}
+LEAST_CORRECT = {"zh": 997, "en": 121, "de": 36}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:

@@ -8,7 +8,7 @@ from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State, completed
 from chatrobot.language.frames import GO, RETURNS, STILL, Frame
 from chatrobot.language.manner import Pace
-from chatrobot.language.returning import goes_back, partly_back, way_back
+from chatrobot.language.returning import goes_back, partly_back, turned_back, way_back
 from chatrobot.language.slots import OUTLINES, check_all_used, check_extents
 from chatrobot.language.turning import face, is_turn, turn
 from chatrobot.language.unclear import Unclear
@@ -25,7 +25,7 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     check_extents(frame)
     _check_known(frame, state)
     if goes_back(frame, state):
-        return way_back(Frame(verb="return", pace=frame.pace), state, pace)
+        return turned_back(frame, state) or way_back(Frame(verb="return", pace=frame.pace), state, pace)
     if "to_start" in frame.flags and frame.direction and "length" in frame.q:
         frame = frame.copy()
         frame.flags.discard("to_start")  # the way to it is told in full

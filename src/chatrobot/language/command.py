@@ -137,19 +137,39 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     size = with_another_size(plain, atoms, language)
     if size is not None and len(before) > 1:
         sized = resized(list(before), Edit(amounts=[size], roles={"side"}))
-        if sized is None:
+        if sized is not None:
+            return sized
+        if not any(a.value == "again" for a in atoms):
             raise Unclear("which_size", size.text)  # `now with 30 cm` after sides of two lengths
-        return sized
     if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
         own = frames_of(atoms[:-2])
         if any(frame.moves for frame in own):
             if is_correction(dialogue.last_motion):
                 raise Unclear("unclear_motion", atoms[-1].text)  # what was done, or what was meant?
             return [*reading.steps_of_their_own(own), *before]
+    own = frames_of(_after_again(atoms))
+    if any(f.moves for f in own) and not (any(map(_refers, own)) or is_correction(dialogue.last_motion)):
+        return [*before, *reading.steps_of_their_own(own)]
     changed = edited(atoms, dialogue)
     if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed
+
+
+def _refers(frame: Frame) -> bool:
+    """Whether it takes more than its side from the motion before: `then back`, 再走两遍."""
+    return (
+        "times" in frame.q or frame.verb == "return" or (frame.direction == "back" and not frame.has_extent)
+    )
+
+
+def _after_again(atoms: list[Atom]) -> list[Atom]:
+    """What is to be done after the motion before: `the same again, and then turn left`; nothing where none is told."""
+    at = next((i for i, atom in enumerate(atoms) if atom.kind not in ("filler", "glue", "sep")), 0)
+    after = next((i for i, atom in enumerate(atoms[at:], at) if atom.value != "again"), len(atoms))
+    conn = next((i for i, atom in enumerate(atoms[after:], after) if atom.kind != "sep"), len(atoms))
+    told = at < after and conn < len(atoms) and (atoms[conn].kind, atoms[conn].value) == ("conn", "then")
+    return atoms[conn + 1 :] if told else []
 
 
 def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation | None:

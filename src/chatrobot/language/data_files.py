@@ -9,7 +9,7 @@ import os
 import re
 import sys
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -28,6 +28,7 @@ REPLY_LANGUAGES = (*LANGUAGES, "de")
 Compiled = TypeVar("Compiled")
 _CHECK_BYTES = 4
 _BRACES = re.compile(r"\{([^{}]*)\}")
+_PART = re.compile(r"(?<!\?P)<(\w+)>")
 
 
 @cache
@@ -49,6 +50,16 @@ def expand(pattern: str) -> list[str]:
         return [pattern]
     choices = [part.split(",") if i % 2 else [part] for i, part in enumerate(parts)]
     return [" ".join("".join(chosen).split()) for chosen in itertools.product(*choices)]
+
+
+def in_full(pattern: str, parts: Mapping[str, str]) -> str:
+    """A pattern with what each `<name>` in it stands for, which may name others."""
+    found = _PART.search(pattern)
+    if found is None:
+        return pattern
+    stands_for = parts[found[1]]
+    grouped = stands_for if stands_for.startswith("(") else f"(?:{stands_for})"
+    return in_full(pattern.replace(found[0], grouped), parts)
 
 
 def compiled(name: str, build: Callable[[], Compiled]) -> Compiled:

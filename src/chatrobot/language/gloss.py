@@ -19,6 +19,7 @@ from chatrobot.language.typos import is_slip
 MARK = "qx"
 """Ends a word that no gloss covers, so that it is near no English word; no word ends in it."""
 _BREAK = re.compile(r"((?:[,!?;:…\n()\"“”„«»—–]|\.(?!\d))+)")
+_WORD = re.compile(r"[^\W\d_]+")
 _MARKED = re.compile(rf"([\w~]+)\{VERB}")
 _LEAST_STEM, _LEAST_MENDED = 4, 5
 _SPACES = re.compile(r"[ \t]+")
@@ -48,8 +49,9 @@ class Gloss:
 def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
     """`text` in English words. `names` are words of this dialogue and stay as they are."""
     using = tables(language)
-    written = {folded(word, language): word for word in re.findall(r"[^\W\d_]+", text)}
-    plain = _replaced(folded(normalise(text), language), using.before)
+    written = {folded(word, language): word for word in _WORD.findall(text)}
+    spoken = _WORD.sub(lambda word: using.dialect.get(word[0], word[0]), folded(normalise(text), language))
+    plain = _replaced(spoken, using.before)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
     found = list(_words(UNIT.findall(plain), using, folded_names))
     said = {

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from chatrobot.language.data_files import compiled, expand, load_table
+from chatrobot.language.data_files import compiled, expand, in_full, load_table
 
 VERB = "^"
 """Follows a verb that may stand last in its clause, and is to open it."""
@@ -28,6 +28,7 @@ class Tables:
     """The gloss of one language."""
 
     words: Mapping[Key, str]
+    dialect: Mapping[str, str]
     longest: Mapping[str, int]
     before: Rules
     rules: Rules
@@ -52,11 +53,12 @@ def tables(language: str) -> Tables:
     numbers = rest["numbers"]
     listed = {name: _any_of(numbers[name]) for name in ("ones", "teens", "tens", "suffixes")}
     before, rules, after = (
-        tuple((re.compile(pattern), by) for pattern, by in rest[name])
+        tuple((re.compile(in_full(pattern, rest["parts"])), by) for pattern, by in rest[name])
         for name in ("before", "rules", "after")
     )
     return Tables(
         words=words,
+        dialect={written: plain for plain, listed in rest["dialect"].items() for written in listed},
         longest=longest,
         before=before,
         rules=rules,
@@ -76,7 +78,8 @@ def words_of(language: str) -> frozenset[str]:
     """Every single word that tells that a text is in that language, as it is folded: names of people do not."""
     words, _, names = _compiled(language)
     known = {unit for key, word in words.items() if (word,) != key for unit in key if unit.isalpha()}
-    return frozenset(known | set(tables(language).values)) - names
+    using = tables(language)
+    return frozenset(known | set(using.values) | set(using.dialect)) - names
 
 
 def shared_words(language: str) -> frozenset[str]:

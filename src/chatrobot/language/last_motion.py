@@ -90,9 +90,17 @@ def unit_after(context: Context) -> str:
     return {0.01: "cm", 0.0254: "in", 0.3048: "ft", 1.0: "m"}.get(state.unit_m or 0.0, "")
 
 
+def _last_told(dialogue: Dialogue) -> TurnRecord | None:
+    """The last motion; after `undo that` what was undone: `now 1.5 m` is to go its way, and not the way back."""
+    last = dialogue.last_motion
+    if last is None or last.walk is None or last.walk.kind != "undo":
+        return last
+    return next((turn for turn in reversed(dialogue.turns) if turn.plan and turn.walk is None), last)
+
+
 def state_after(context: Context) -> State:
     """What the last motion leaves for an ellipsis like `thirty more`."""
-    last = context.dialogue.last_motion
+    last = _last_told(context.dialogue)
     state = State(home=context.dialogue.start_pose if last is not None else None)
     chosen = (chosen_unit_m(turn.text) for turn in reversed(context.dialogue.turns))
     state.chosen_m = next((unit for unit in chosen if unit), None)

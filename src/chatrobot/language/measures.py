@@ -68,6 +68,8 @@ def measured(parts: list[Frame], pace: Pace) -> Measures:
             _take_amount(found, head, part, name, amount)
         if {"radius", "diameter"} & set(part.roles) and "again" in part.flags and "length" not in part.q:
             raise Unclear("which_size", part.text)  # `of the same radius`
+        if "number" in part.q and "length" not in part.q and set(part.roles) & {"radius", "diameter"}:
+            raise Unclear("no_unit", part.q["number"].text)  # `a circle, radius 40`: a size, and no count
         if head.shape == "circle" and part.shape in ("half_circle", "quarter_circle"):
             found.shape = part.shape  # 以左侧0.8米处为圆心走半圆
         if head.shape == "sbend" and part.shape == "half_circle":

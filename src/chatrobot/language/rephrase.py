@@ -6,10 +6,9 @@ Plain rewriting of normalised text, by the patterns of `rephrase.toml`, before a
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from functools import cache
 
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.normalise import has_chinese, normalise
 
 
@@ -17,17 +16,7 @@ from chatrobot.language.normalise import has_chinese, normalise
 def _rules(language: str, name: str = "rules") -> tuple[tuple[re.Pattern[str], str], ...]:
     table = load_table(language, "rephrase")
     parts: dict[str, str] = table.get("parts", {})
-    return tuple((re.compile(_in_full(pattern, parts)), said) for pattern, said in table.get(name, ()))
-
-
-def _in_full(pattern: str, parts: Mapping[str, str]) -> str:
-    """A pattern with what each `<name>` in it stands for, which may name others."""
-    found = re.search(r"(?<!\?P)<(\w+)>", pattern)
-    if found is None:
-        return pattern
-    stands_for = parts[found[1]]
-    grouped = stands_for if stands_for.startswith("(") else f"(?:{stands_for})"
-    return _in_full(pattern.replace(found[0], grouped), parts)
+    return tuple((re.compile(in_full(pattern, parts)), said) for pattern, said in table.get(name, ()))
 
 
 @cache
@@ -45,7 +34,7 @@ def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
 
 
 _ITEM = re.compile(r"\s*\(?(\d{1,2})(?:[、:)] ?|[.,](?: |(?=[^\d\s])))")
-_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})[.):] ?(?=[a-z])")
+_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})[.):](?: ?(?=[a-z])| (?=\d))")
 _LETTERED = re.compile(r"(?:^|(?<=\s))\(?([a-h])\) ?(?=[a-z\d])")
 _LETTERS = "abcdefgh"
 _NUMBERED = re.compile(r"(?:^|(?<=[\n;。:!.]))\s*(\d{1,2})[、:] ?(?=[^\d\s])")

@@ -79,7 +79,8 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
     if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
         return inverse(list(drives), speed)
-    if state.home is not None and not drives:
+    about = _has_turned_about(state) and all(isinstance(step, Turn) for step in drives)
+    if state.home is not None and (about or not drives):
         return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
 
@@ -105,12 +106,25 @@ def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
 
 
+def turned_back(frame: Frame, state: State) -> list[Step]:
+    """`turn left 10 degrees and back`: the turns undone where nothing else was done, half turns apart; else none."""
+    turned = [step for step in state.steps if not isinstance(step, Wait)]
+    return inverse(turned) if not frame.verb and all(map(_turns_aside, turned)) else []
+
+
+def _turns_aside(step: Step) -> bool:
+    return isinstance(step, Turn) and bool(step.angle_rad) and not _is_about(step)
+
+
 def _has_turned_about(state: State) -> bool:
     """`do a 180 and come back 50 cm`: the way back lies ahead now."""
-    last = state.steps[-1] if state.steps else None
-    if not isinstance(last, Turn) or last.angle_rad is None:
+    return bool(state.steps) and _is_about(state.steps[-1])
+
+
+def _is_about(step: Step) -> bool:
+    if not isinstance(step, Turn) or step.angle_rad is None:
         return False
-    return abs(math.remainder(last.angle_rad - math.pi, 2 * math.pi)) < 1e-6
+    return abs(math.remainder(step.angle_rad - math.pi, 2 * math.pi)) < 1e-6
 
 
 def _some_way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:

@@ -234,8 +234,11 @@ def points_at_before(atom: Atom, language: str) -> bool:
 
 
 def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:
-    """The one length of `now with 50 cm`, which takes the place of the one before; None for anything else."""
+    """The one length of `now with 50 cm`, `the same with 50 cm`, for the one before; None for anything else."""
     sized = [atom for atom in atoms if atom.kind == "q"]
+    again = any(a.value == "again" for a in atoms)
     others = [a for a in atoms if a.kind not in ("q", "filler", "glue", "sep") and a.value != "again"]
-    opened = plain.startswith(tuple(load_table(language, "selections").get("with", ())))
+    with_ = tuple(load_table(language, "selections").get("with", ()))
+    before = atoms[atoms.index(sized[0]) - 1].text if again and sized else ""
+    opened = plain.startswith(with_) or f"{before} " in with_
     return sized[0] if opened and not others and len(sized) == 1 and sized[0].value == "length" else None
