@@ -60,7 +60,7 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     Raises:
         Unclear: `90 degrees` after `turn left`: so much more, or so much in all? `Clockwise` after `turn 180`?
     """
-    last = dialogue.last_motion
+    last = _last_told(dialogue)
     if len(frames) != 1 or last is None or last.plan is None or len(last.plan.steps) != 1:
         return
     frame, step = frames[0], last.plan.steps[0]
