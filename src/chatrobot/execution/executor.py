@@ -73,6 +73,8 @@ class Executor:
         self._settle_since_s: float | None = None
         self._corrections_left = TRIES
         self._is_correcting = False
+        self._has_stood = False
+        """Whether it has been seen standing where the plan ends: from then on corrections wait for that each time."""
         self._timed: Twist | None = None
         self._asked = ZERO_TWIST
         self._withheld = 0.0
@@ -280,8 +282,9 @@ class Executor:
             self._timed = segment.motion.twist if segment.motion.is_timed else None
             self._walk.ended_at(self._reference.reference)
             self._corrections_left = TRIES
+            self._has_stood = False
         self._is_correcting = False
-        if self._ending is None and self._correct(BETWEEN_STEPS, now_s):
+        if self._ending is None and not self._has_stood and self._correct(BETWEEN_STEPS, now_s):
             return ZERO_TWIST
         return None
 
@@ -305,6 +308,8 @@ class Executor:
             return ZERO_TWIST
         if not self._reference.has_moved:
             return self._end("completed", None)
+        if seen and not self._has_stood:
+            self._has_stood, self._corrections_left = True, TRIES
         if seen and self._correct(AT_THE_END, now_s):
             self._settle_since_s = None
             return ZERO_TWIST

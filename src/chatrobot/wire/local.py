@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import math
 import select
 import socket
 import struct
@@ -22,6 +23,7 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.wire.codec import decode, encode, topic_of
 from chatrobot.wire.connect import Backend
 from chatrobot.wire.messages import Message
+from chatrobot.wire.stamps import from_wall_s
 from chatrobot.wire.wire import M, Wire
 
 PACKET_BYTES = 262_144
@@ -139,6 +141,15 @@ class LocalWire(Wire):
         return bool(packet)
 
 
+def _stamped_s(ancillary: Sequence[tuple[int, int, bytes]]) -> float:
+    """Return when the kernel took a packet, in seconds of our clock; never where it does not tell."""
+    for _, kind, stamp in ancillary:
+        if kind == _SO_TIMESTAMPNS and len(stamp) == _TIMESPEC.size:
+            seconds, more_ns = _TIMESPEC.unpack(stamp)
+            return from_wall_s(seconds + more_ns * 1e-9)
+    return math.inf
+
+
 class LocalHub(Wire):
     """Routes packets between the processes; is itself an end of the wire for the process that runs it.
 
@@ -158,17 +169,12 @@ class LocalHub(Wire):
         self._poller.register(self._listener, select.EPOLLIN)
         self.ever_connected = False
         self._closed = False
-        self._stamp: list[tuple[int, int, bytes]] = []
-        """What the kernel tells of when the packet that is being routed came."""
+        self._came_s = math.inf
 
     @property
     def age_s(self) -> float:
         """Return how long ago the message that is being delivered came; 0 where the kernel does not tell."""
-        for _, kind, stamp in self._stamp:
-            if kind == _SO_TIMESTAMPNS and len(stamp) == _TIMESPEC.size:
-                came_s, more_ns = _TIMESPEC.unpack(stamp)
-                return float(max(0.0, time.time() - came_s - more_ns * 1e-9))
-        return 0.0
+        return max(0.0, time.monotonic() - self._came_s)
 
     @property
     def client_count(self) -> int:
@@ -178,7 +184,7 @@ class LocalHub(Wire):
     def publish(self, topic: str, message: Message) -> None:
         if self._closed:
             raise WireError("this end of the wire is closed")
-        self._stamp = []
+        self._came_s = math.inf
         self._subscriptions.deliver(topic, message)
         packet: bytes | None = None
         for client, topics in tuple(self._clients.values()):
@@ -227,17 +233,18 @@ class LocalHub(Wire):
         client, topics = self._clients[descriptor]
         for _ in range(_PACKETS_A_TURN):
             try:
-                packet, self._stamp, _, _ = client.recvmsg(PACKET_BYTES, _STAMP_BYTES)
+                packet, ancillary, _, _ = client.recvmsg(PACKET_BYTES, _STAMP_BYTES)
             except BlockingIOError:
                 return
             except OSError:
-                packet = b""
+                packet, ancillary = b"", []
             if not packet:
                 self._drop(descriptor)
                 return
             if packet.startswith(SUBSCRIBE):
                 topics.add(packet[len(SUBSCRIBE) :].decode(errors="replace"))
             else:
+                self._came_s = _stamped_s(ancillary)
                 self._route(packet)
 
     def _route(self, packet: bytes) -> None:

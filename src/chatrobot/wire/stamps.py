@@ -51,3 +51,8 @@ class StampTranslator:
 def to_wall_s(stamp_s: float) -> float:
     """A stamp of this machine's monotonic clock as seconds since 1970, which is what ROS headers carry."""
     return stamp_s + time.time() - time.monotonic()
+
+
+def from_wall_s(stamp_s: float) -> float:
+    """A stamp of this machine's wall clock, seconds since 1970, on its monotonic one, which nobody sets."""
+    return stamp_s - time.time() + time.monotonic()
