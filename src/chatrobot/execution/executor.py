@@ -346,6 +346,5 @@ class Executor:
             self._emit(Said(self._turn, motion.text))
 
     def _end(self, outcome: Outcome, reason: Reason | None) -> Twist:
-        self.is_done = True
-        self.outcome, self.reason = outcome, reason
+        self.is_done, self.outcome, self.reason = True, outcome, reason
         return ZERO_TWIST
