@@ -137,9 +137,8 @@ class Connection:
 
 
 class Prepared:
-    """What is known before a robot is met: all that a session needs but the link.
-
-    `listen` opens another end of the robot's wire, and gives the clock that its messages come by.
+    """What is known before a robot is met: all that a session needs but the link; `listen` opens another end of the
+    robot's wire, and gives the clock that its messages come by.
 
     Raises:
         InputError: the world is wrong, or does not fit the robot.
@@ -151,6 +150,7 @@ class Prepared:
         self.listen: Callable[[], tuple[Wire, Clock]]
         check_known(self.world, profile)
         self.understanding = Understanding(profile, self.world, setup.folder)
+        self.understanding.is_simulated = setup.on in SIMULATED
 
     def session(self, link: MotionLink, on_event: OnEvent) -> Session:
         """Build the session that talks over `link`."""

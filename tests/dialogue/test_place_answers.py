@@ -105,3 +105,27 @@ def test_nothing_else_is_taken_for_such_a_question(text: str, outcome: str) -> N
 def test_a_robot_that_has_not_said_where_it_is_tells_no_distance() -> None:
     understanding = Understanding(PROFILE, HOME, None)
     assert "odometry" in understanding.interpret("where is the kitchen?").reply
+
+
+@pytest.mark.parametrize(
+    ("text", "reply"),
+    [
+        ("what is in front of you?", "The nearest thing ahead of me is 2.40 m away."),
+        ("is there anything on your left?", "The nearest thing to my left is 0.80 m away."),
+        ("how much room is there behind you?", "I see nothing behind me."),
+        (
+            "what is near you?",
+            "The nearest things: ahead of me 2.40 m, to my left 0.80 m, to my right 1.50 m.",
+        ),
+        ("你左边有什么？", "我左边最近的东西有 0.80 米远。"),
+        ("Was ist vor dir?", "Das Nächste vor mir ist 2.40 m entfernt."),
+    ],
+)
+def test_what_is_on_a_side_is_what_the_lidar_sees_there(text: str, reply: str) -> None:
+    understanding = Understanding(PROFILE, HOME, None)
+    understanding._state = RobotState(sectors_m=(2.4, 3.0, 0.8, None, None, 1.9, 1.5, 2.0))
+    assert understanding.interpret(text).reply == reply
+
+
+def test_without_a_lidar_it_says_that_it_cannot_see() -> None:
+    assert asked("what is on your right?").reply.startswith("I cannot see that")

@@ -40,7 +40,11 @@ class Conversation:
         return meant
 
     def _remember(self, text: str, meant: Interpretation, start: Any) -> None:
-        places = dict(self.dialogue.places)
+        def called(name: str) -> str:
+            return meant.renamed.get(name, name)
+
+        places = {called(name): place for name, place in self.dialogue.places.items() if called(name)}
+        words = {called(name): plan for name, plan in self.dialogue.words.items() if called(name)}
         if meant.remember_place:
             places[meant.remember_place] = Place(self.track.pose)
         places.update({name: Place(pose) for name, pose in self.track.places.items()})
@@ -52,7 +56,7 @@ class Conversation:
         self.dialogue = Dialogue(
             (*self.dialogue.turns, record),
             places,
-            {**self.dialogue.words, **meant.define},
+            {**words, **meant.define},
             meant.default_speed_mps or self.dialogue.default_speed_mps,
             meant.default_rate_radps or self.dialogue.default_rate_radps,
             pending=text if meant.outcome == "unclear" else "",

@@ -14,6 +14,7 @@ class Telemetry(Event, name="telemetry"):
     """Where the robot is and how it moves, as it measures itself; `path_m` since odometry began.
 
     `odometry_epoch` counts the times odometry began anew: a pose of an older epoch means nothing any more.
+    `sectors_m` are those of `Looked`.
     """
 
     pose: Pose
@@ -23,6 +24,7 @@ class Telemetry(Event, name="telemetry"):
     nearest_obstacle_m: float | None = None
     moving: bool = False
     odometry_epoch: int = 0
+    sectors_m: tuple[float | None, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -198,6 +198,8 @@ class Dispatch:
             self._stop(utterance.text[:80])
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
+            if meant.obstacle:
+                self._link.send("obstacle", **meant.obstacle)
             self._understanding.note_unmoved(utterance.text, meant)
             self._llm.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
             reason, proposal = parting(meant), meant.proposal

@@ -18,6 +18,7 @@ from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
+from chatrobot.plan.ring import Point, ring_around
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -26,6 +27,10 @@ if TYPE_CHECKING:
 
 
 _FILE = "places.json"
+AT_PLACE_M = 1.0
+"""What stands within this of a named place is what the place is named after."""
+RING_MARGIN_M = 0.12
+"""How far a robot keeps from what it drives around."""
 
 
 class Places:
@@ -48,6 +53,18 @@ class Places:
         """Remember `pose` under `name`; an older place of that name is replaced."""
         tidy = one_line(name, MAX_PLACE_CHARS)
         self._kept[tidy] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
+        self._keep()
+
+    def rename(self, name: str, new: str) -> None:
+        """Call a place otherwise, or forget it where `new` is empty; nothing where there is none of that name."""
+        entry = self._kept.pop(name, None)
+        if entry is None:
+            return
+        if new:
+            self._kept[one_line(new, MAX_PLACE_CHARS)] = entry
+        self._keep()
+
+    def _keep(self) -> None:
         try:
             self._save()
         except OSError as error:  # a full disk is no reason to stop a robot
@@ -126,3 +143,18 @@ class MapWays:
             return None
         points = [(start.x_m, start.y_m), *way.waypoints]
         return sum(math.dist(one, other) for one, other in itertools.pairwise(points))
+
+    def ring(self, place: Pose) -> tuple[Point, ...]:
+        """Return the corners, counter-clockwise, of the way once around what stands at a place.
+
+        Empty where nothing stands within `AT_PLACE_M` of it.
+        """
+        by_distance = [
+            (one.shape.distance_m(place.x_m, place.y_m), k) for k, one in enumerate(self.world.obstacles)
+        ]
+        nearest_m, k = min(by_distance, default=(math.inf, 0))
+        if nearest_m > AT_PLACE_M:
+            return ()
+        return ring_around(
+            self.world.obstacles[k].shape.outline(), self._profile.footprint_radius_m + RING_MARGIN_M
+        )

@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.core.reason import Reason
@@ -19,11 +18,10 @@ from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
-from chatrobot.language.ledger import Entry, TurnRecord
+from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
 from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.steps import Plan, Step
-from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -94,6 +92,8 @@ class Understanding:
     """
 
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
+        self.is_simulated = False
+        """Whether things can be put around the robot and taken away."""
         self._interpreter = OfflineInterpreter(profile)
         self._dialogue = Dialogue()
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
@@ -140,11 +140,13 @@ class Understanding:
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
             code = UNHEARD if self.is_measured else "answer_unmeasured"
             meant = Interpretation("refused", say(self.language, code), self.language)
+        if meant.obstacle and not self.is_simulated:
+            meant = Interpretation("refused", say(self.language, "only_simulated"), self.language)
         return meant
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        known = (self.world_places, without_heading, self._names, self.ways.any)
+        known = (self.world_places, without_heading, self._names, self.ways.any, self.ways.ring)
         return Context(dialogue, self._state, *known, self.language)
 
     def can_do(self, text: str) -> bool:
@@ -239,6 +241,7 @@ class Understanding:
             event.path_m,
             event.battery_percent,
             event.nearest_obstacle_m,
+            event.sectors_m,
         )
         if not self._started:
             self._started = True
@@ -284,7 +287,7 @@ class Understanding:
     def note_model_turn(self, text: str, ended: Ended, rehearse_only: bool) -> str:
         """Remember a turn that a model planned; return the reply, in the language of the order."""
         language = self.language_of(text)
-        plan = _plan_of(ended.steps) if not rehearse_only and ended.finished is not None else None
+        plan = plan_of(ended.steps) if not rehearse_only and ended.finished is not None else None
         self._note_end(TurnRecord(text, ended.outcome, plan), ended.finished)
         if rehearse_only and ended.outcome == "completed":
             return say(language, "only_rehearsed")
@@ -292,9 +295,13 @@ class Understanding:
 
     def _learn(self, meant: Interpretation) -> None:
         dialogue = self._dialogue
+        for name, new in meant.renamed.items():
+            self.places.rename(name, new)
+        words = {meant.renamed.get(name, name): plan for name, plan in dialogue.words.items()}
+        words.pop("", None)  # forgotten
         self._dialogue = replace(
             dialogue,
-            words={**dialogue.words, **meant.define},
+            words={**words, **meant.define},
             default_speed_mps=meant.default_speed_mps or dialogue.default_speed_mps,
             default_rate_radps=meant.default_rate_radps or dialogue.default_rate_radps,
         )
@@ -316,8 +323,8 @@ class Understanding:
             record,
             start_pose=finished.start,
             end_pose=finished.pose,
-            executed=_plan_in(finished.executed),
-            remaining=_plan_in(finished.remaining),
+            executed=plan_in(finished.executed),
+            remaining=plan_in(finished.remaining),
             lost="" if finished.measured else UNMEASURED,
             duration_s=finished.duration_s,
         )
@@ -333,18 +340,3 @@ class Understanding:
     def _record(self, record: TurnRecord) -> None:
         turns = (*self._dialogue.turns, record)[-REMEMBERED_TURNS:]
         self._dialogue = replace(self._dialogue, turns=turns)
-
-
-def _plan_in(text: str) -> Plan | None:
-    try:
-        return parse_plan(text) if text else None
-    except PlanTextError:  # more than a plan may have: the parts of many runs of one turn
-        return None
-
-
-def _plan_of(steps: Sequence[Step]) -> Plan | None:
-    """All of them as one plan; None where there is none, or it would be too large for one."""
-    try:
-        return Plan(tuple(steps))
-    except ValueError:
-        return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -48,7 +48,8 @@ class RobotState:
     """How the robot is at this moment, in the odom frame. None: not known.
 
     `has_said_so` is False before its odometry has been heard: pose, twist and path are then nothing to tell.
-    `is_measured` is False where it has no odometry: they never will be.
+    `is_measured` is False where it has no odometry: they never will be. `sectors_m`: how far it is to what the
+    lidar sees, by eight sectors from straight ahead counter-clockwise; None where that is nothing; empty without one.
     """
 
     pose: Pose = ORIGIN
@@ -57,6 +58,7 @@ class RobotState:
     path_m: float = 0.0
     battery_percent: float | None = None
     obstacle_m: float | None = None
+    sectors_m: tuple[float | None, ...] = ()
     has_said_so: bool = True
     is_measured: bool = True
 
@@ -67,7 +69,9 @@ class Context:
 
     `world_places` are names the world's map knows, `place_names` the same put together, place by place;
     `places_without_heading` are those of them that it gives no heading. `ways` tells how long the way from one pose to
-    another is on the map, metres; None where there is no map. `language` is that of what was said before;
+    another is on the map, metres; `rings` the corners of the way
+    once around what stands at a pose, in the odom frame, none where nothing does; both are None where there is no map.
+    `language` is that of what was said before;
     None where only the turns tell it.
     """
 
@@ -77,6 +81,7 @@ class Context:
     places_without_heading: frozenset[str] = frozenset()
     place_names: tuple[tuple[str, ...], ...] = ()
     ways: Callable[[Pose, Pose], float | None] | None = None
+    rings: Callable[[Pose], Sequence[tuple[float, float]]] | None = None
     language: LanguageCode | None = None
 
     @property

@@ -69,8 +69,12 @@ def _known(text: str, language: LanguageCode) -> str:
 def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
     """What a gloss means, with its words as the person wrote them."""
     reply, part = meant.reply, said.as_said(meant.unaccounted)
+    obstacle = {
+        key: said.as_said(value) if isinstance(value, str) else value for key, value in meant.obstacle.items()
+    }
     place = said.as_said(meant.remember_place).lower()
-    for read, written in ((meant.unaccounted, part), (meant.remember_place, place)):
+    names = ((value, obstacle[key]) for key, value in meant.obstacle.items() if isinstance(value, str))
+    for read, written in ((meant.unaccounted, part), (meant.remember_place, place), *names):
         reply = _quoted(reply, read, written)
     offer = meant.proposal
     if offer is not None:
@@ -83,6 +87,10 @@ def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
         plan=_as_written(meant.plan, said) if meant.plan is not None else None,
         define={said.as_said(name).lower(): plan for name, plan in meant.define.items()},
         remember_place=place,
+        obstacle=obstacle,
+        renamed={
+            said.as_said(name).lower(): said.as_said(new).lower() for name, new in meant.renamed.items()
+        },
     )
 
 

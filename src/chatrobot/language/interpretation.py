@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.ledger import Walk
@@ -23,10 +23,11 @@ class Interpretation:
     """What an utterance means.
 
     `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
-    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last six
+    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last eight
     are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
     the robot stands now, `walk` what of the ledger of turns the plan undoes or does again; `corrects`: it puts the
-    turn before right.
+    turn before right; `renamed`: what a taught place or word is called from now on, nothing where it is forgotten;
+    `obstacle`: what the link is to change in the simulation (`obstacle` of link/envelope.py).
     """
 
     outcome: Outcome
@@ -41,6 +42,8 @@ class Interpretation:
     remember_place: str = ""
     walk: Walk | None = None
     corrects: bool = False
+    renamed: Mapping[str, str] = field(default_factory=dict)
+    obstacle: Mapping[str, Any] = field(default_factory=dict)
     default_speed_mps: float | None = None
     default_rate_radps: float | None = None
 

@@ -36,10 +36,12 @@ from chatrobot.language.lexicon import lexicon
 from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in
+from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.program_request import read_program_request
+from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
@@ -159,7 +161,12 @@ class OfflineInterpreter:
             Unclear: where nothing is ordered, or what is ordered is not understood.
         """
         plain = normalise(text)
-        told = answer_about_places(plain, language, context)
+        told = (
+            answer_about_places(plain, language, context)
+            or read_naming(plain, language, context)
+            or read_putting(plain, language, context)
+            or told_what_it_would_do(plain, language, lambda said: self._meant(said, language, context))
+        )
         if told is not None:
             return told
         names = names_in(context)

@@ -12,12 +12,14 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Literal, Union
 
+from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.language.inverse import inverse
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.base import Block
 from chatrobot.plan.steps import Face, Go, Plan, RawTwist, Remember, Say, Step, Wait
+from chatrobot.plan.text import parse_plan
 
 LEAST_M, LEAST_RAD = 0.01, math.radians(1.0)
 """A turn that moved the robot less than this, and drove no step, did not move it."""
@@ -214,3 +216,19 @@ def _drives(step: Step) -> bool:
     if isinstance(step, RawTwist):
         return any((step.vx_mps, step.vy_mps, step.wz_radps))
     return not isinstance(step, (Wait, Say, Remember, Go, Face))
+
+
+def plan_in(text: str) -> Plan | None:
+    """The plan that a text is; None where it is empty, or too large for a plan: many runs of a turn."""
+    try:
+        return parse_plan(text) if text else None
+    except PlanTextError:
+        return None
+
+
+def plan_of(steps: Sequence[Step]) -> Plan | None:
+    """All of the steps as one plan; None where there is none, or it would be too large for one."""
+    try:
+        return Plan(tuple(steps))
+    except ValueError:
+        return None

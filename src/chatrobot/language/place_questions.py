@@ -15,13 +15,13 @@ from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import by_language, say
 from chatrobot.language.questions import places_known, topic_of, unknown_pose
+from chatrobot.language.seen import SECTORS, what_is_seen
 from chatrobot.language.typos import edit_distance
 
 _HERE_M = 0.25
 _ON_SIDE_RAD = math.radians(67.5)
 """A place so near is here; one so far off a side is not on it."""
 _SIDES_DEG = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
-_SECTORS = ("ahead", "ahead_left", "left", "behind_left", "behind", "behind_right", "right", "ahead_right")
 _FAR_OFF = 99
 _MOST_NAMED, _MOST_BESIDE = 5, 3
 
@@ -49,8 +49,13 @@ def answer_about_places(plain: str, language: LanguageCode, context: Context) ->
         if found is None:
             continue
         named = found.groupdict()
+        side = named.get("side") or named.get("side2") or ""
+        if kind == "sight":
+            return Interpretation(
+                "answered", what_is_seen(_side_of(side, language), language, context), language
+            )
         place = named.get("place") or (_spoken_of(language, context) if kind == "it" else "")
-        reply = _reply(kind, place, named.get("side") or "", language, context)
+        reply = _reply(kind, place, side, language, context)
         if reply:
             return Interpretation("answered", reply, language)
     return None
@@ -158,17 +163,21 @@ def _bearing_rad(place: _Place, context: Context) -> float:
 
 
 def _is_on(place: _Place, side: str, language: str, context: Context) -> bool:
-    sides = load_table(language, "places_asked")["sides"]
-    asked = next(_SIDES_DEG[name] for name, said in sides.items() if re.fullmatch(said, side))
+    asked = _SIDES_DEG[_side_of(side, language)]
     off = math.remainder(_bearing_rad(place, context) - math.radians(asked), 2 * math.pi)
     return abs(off) < _ON_SIDE_RAD and _straight_m(place, context) > _HERE_M
+
+
+def _side_of(said: str, language: str) -> str:
+    sides = load_table(language, "places_asked")["sides"]
+    return next((name for name, pattern in sides.items() if re.fullmatch(pattern, said)), "")
 
 
 def _told(place: _Place, language: str, context: Context) -> str:
     """`The kitchen is ahead to the left, 3.20 m by the way I would drive.`"""
     if _straight_m(place, context) <= _HERE_M:
         return say(language, "place_here", place=place.name)
-    sector = _SECTORS[round(math.degrees(_bearing_rad(place, context)) / 45.0) % 8]
+    sector = SECTORS[round(math.degrees(_bearing_rad(place, context)) / 45.0) % 8]
     way_m = context.way_m(place.pose)
     code = "place_by_way" if way_m is not None else "place_no_way" if context.has_ways else "place_straight"
     metres = fixed(_straight_m(place, context) if way_m is None else way_m, 2)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from chatrobot.language.announced import with_announced
+from chatrobot.language.around import around_places, once_around
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_cautions, without_chatter
 from chatrobot.language.clauses import read_frames
@@ -71,7 +72,7 @@ class Reading:
 
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
-        atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
+        atoms = around_places(tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear))
         atoms = without_restated(in_shares(with_multiples(with_slips(read_quantities(atoms)))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
@@ -123,7 +124,7 @@ class Reading:
         for name in context.places_without_heading:
             places[name] = replace(places[name], yaw_rad=None)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
-        return Memory(places, words, state_after(self.context))
+        return Memory(places, words, state_after(self.context), lambda go: once_around(go, self.context))
 
 
 def _goes_on_after_undo(frames: Sequence[Frame]) -> bool:

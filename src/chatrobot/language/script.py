@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import act
+from chatrobot.language.around import AROUND
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import PLACE_HEADING, Frame
 from chatrobot.language.manner import Pace
@@ -21,6 +22,7 @@ class Memory:
     places: Mapping[str, Go] = field(default_factory=dict)
     words: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
     state: State = field(default_factory=State)
+    around: Callable[[Go], list[Go]] | None = None
 
 
 @dataclass
@@ -133,7 +135,9 @@ def _known(frame: Frame, script: Script) -> list[Step]:
         return list(script.memory.words[frame.words])
     if not frame.place:
         return []
-    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or frame.rot:
+    goes_around = AROUND in frame.flags
+    turns = bool(frame.rot) and not goes_around
+    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or turns:
         raise Unclear("unclear_motion", frame.text)
     go = script.memory.places.get(frame.place)
     if go is None:
@@ -142,4 +146,8 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     if faces and go.yaw_rad is None:
         raise Unclear("place_has_no_heading", frame.place)
     script.state.last = "go"
+    if goes_around and script.memory.around is not None:
+        ring = script.memory.around(go)
+        ring = ring[::-1] if frame.rot == "right" else ring
+        return [replace(one, speed_mps=script.pace.speed(frame)) for one in ring]
     return [replace(go, yaw_rad=go.yaw_rad if faces else None, speed_mps=script.pace.speed(frame))]

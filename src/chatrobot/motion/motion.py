@@ -89,7 +89,7 @@ class Motion:
             self._notice, LimitPublisher(emit).note,
         )  # fmt: skip
         self._stall_detector = StallDetector(clock, guard, self.halt)
-        self._telemetry = TelemetryPublisher(self.sensors, self._executor.progress, emit)
+        self._telemetry = TelemetryPublisher(profile, self.sensors, self._executor.progress, emit)
         self._scans = ScanPublisher(profile.lidar, self.sensors, self._governor.leases, emit)
         self._emergency: Envelope | None = None
 

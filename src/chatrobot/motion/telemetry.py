@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import numpy as np
+
 from chatrobot.core.events import Event, Limited, Progress, Scan, Telemetry
 from chatrobot.execution.sensors import Sensors, scan_points_m
 from chatrobot.execution.tracking import nearest_m
@@ -25,8 +27,13 @@ class TelemetryPublisher:
     """
 
     def __init__(
-        self, sensors: Sensors, progress: Callable[[float], Progress | None], emit: Callable[[Event], None]
+        self,
+        profile: RobotProfile,
+        sensors: Sensors,
+        progress: Callable[[float], Progress | None],
+        emit: Callable[[Event], None],
     ) -> None:
+        self._profile = profile
         self._sensors = sensors
         self._progress = progress
         self._emit = emit
@@ -53,6 +60,7 @@ class TelemetryPublisher:
                 nearest_m(scan) if scan is not None else None,
                 progress is not None,
                 self._sensors.estimator.epoch,
+                sectors_m(self._profile, scan),
             )
         )
 
@@ -127,21 +135,15 @@ def sectors_m(profile: RobotProfile, scan: LaserScan | None) -> tuple[float | No
     lidar = profile.lidar
     if lidar is None or scan is None:
         return ()
-    nearest = [math.inf] * SECTORS
-    for count, distance in enumerate(scan.ranges_m):
-        if not scan.range_min_m <= distance <= scan.range_max_m:
-            continue
-        angle = scan.angle_min_rad + count * scan.angle_increment_rad + lidar.yaw_rad
-        x, y = lidar.x_m + distance * math.cos(angle), lidar.y_m + distance * math.sin(angle)
-        sector = round(math.atan2(y, x) / (2.0 * math.pi) * SECTORS) % SECTORS
-        free_m = math.hypot(x, y) - _reach_m(profile, x, y)
-        nearest[sector] = min(nearest[sector], max(0.0, free_m))
-    return tuple(round(d, 2) if math.isfinite(d) else None for d in nearest)
-
-
-def _reach_m(profile: RobotProfile, x_m: float, y_m: float) -> float:
-    """How far the footprint reaches towards that point."""
-    distance_m = math.hypot(x_m, y_m)
-    if distance_m == 0.0:
-        return 0.0
-    return max(0.0, max((x * x_m + y * y_m) / distance_m for x, y in profile.footprint))
+    ranges_m = np.asarray(scan.ranges_m)
+    is_valid = (ranges_m >= scan.range_min_m) & (ranges_m <= scan.range_max_m)
+    at_rad = scan.angle_min_rad + np.flatnonzero(is_valid) * scan.angle_increment_rad + lidar.yaw_rad
+    x_m = lidar.x_m + ranges_m[is_valid] * np.cos(at_rad)
+    y_m = lidar.y_m + ranges_m[is_valid] * np.sin(at_rad)
+    off_m = np.maximum(np.hypot(x_m, y_m), 1e-6)
+    corners = np.asarray(profile.footprint)
+    reach_m = (np.outer(x_m, corners[:, 0]) + np.outer(y_m, corners[:, 1])).max(axis=1, initial=0.0) / off_m
+    sector = np.rint(np.arctan2(y_m, x_m) / (2.0 * math.pi) * SECTORS).astype(int) % SECTORS
+    nearest_m = np.full(SECTORS, math.inf)
+    np.minimum.at(nearest_m, sector, np.maximum(off_m - reach_m, 0.0))
+    return tuple(round(float(free_m), 2) if math.isfinite(free_m) else None for free_m in nearest_m)

@@ -1,0 +1,92 @@
+"""Names that were taught are changed and forgotten; what would be done is told; a simulation is furnished by words."""
+
+from __future__ import annotations
+
+import pytest
+
+from chatrobot.core.geometry import Pose
+from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.context import Context, Dialogue, RobotState
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpreter import OfflineInterpreter
+from chatrobot.sim.world import World
+from tests.language.dialogue_runner import MECANUM, Conversation
+
+
+def last_of(*turns: str) -> Interpretation:
+    conversation = Conversation()
+    return [conversation.say(turn) for turn in turns][-1]
+
+
+@pytest.mark.parametrize(
+    ("taught", "changed", "then"),
+    [
+        ("remember this spot as base camp", "rename base camp to tent", "go to tent"),
+        ("remember this spot as base camp", "call base camp tent from now on", "go to tent"),
+        ("shuffle means slide left 30 cm", "rename shuffle to hop", "hop"),
+        ("记住这里叫营地", "把营地改名为基地", "去基地"),
+        ("merk dir diesen Ort als Lager", "benenne Lager in Basis um", "fahr zu Basis"),
+    ],
+)
+def test_a_taught_name_is_changed_and_counts_from_then_on(taught: str, changed: str, then: str) -> None:
+    assert last_of(taught, changed, then).plan is not None
+
+
+@pytest.mark.parametrize(
+    ("taught", "forgotten", "then"),
+    [
+        ("remember this spot as base camp", "forget the place base camp", "go to base camp"),
+        ("shuffle means slide left 30 cm", "forget shuffle", "do a shuffle"),
+        ("记住这里叫营地", "忘掉营地", "去营地"),
+        ("merk dir diesen Ort als Lager", "lösch den Ort Lager", "fahr zum Lager"),
+    ],
+)
+def test_a_forgotten_name_means_nothing_any_more(taught: str, forgotten: str, then: str) -> None:
+    assert last_of(taught, forgotten).outcome == "answered"
+    assert last_of(taught, forgotten, then).plan is None
+
+
+def test_a_name_of_the_map_stays_and_no_two_places_get_one_name() -> None:
+    context = Context(Dialogue(), RobotState(), {"kitchen": Pose(1.0)}, place_names=(("kitchen",),))
+    assert OfflineInterpreter(MECANUM).interpret("forget the kitchen", context).code == "name_of_map"
+    one, other = "remember this spot as oak", "remember this spot as elm"
+    assert last_of(one, other, "rename oak to elm").code == "name_taken"
+    assert last_of(one, "forget it").outcome == "stop"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "what would “drive 1 m” do?",
+        "what would you do if I said drive 1 m?",
+        "如果我说“前进一米”，你会做什么？",
+        "Was würde „fahr einen Meter vor“ tun?",
+    ],
+)
+def test_what_a_text_would_do_is_told_and_not_done(text: str) -> None:
+    meant = last_of(text)
+    assert (meant.outcome, meant.plan) == ("answered", None)
+    assert "1" in meant.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "at"),
+    [
+        ("put a box in front of you", "box", [2.0, 1.0]),
+        ("place a chair 50 cm to your left", "chair", [1.0, 1.5]),
+        ("在前面两米放一个箱子", "箱子", [3.0, 1.0]),
+        ("Stell eine Kiste hinter dich", "Kiste", [0.0, 1.0]),
+    ],
+)
+def test_a_thing_is_put_where_it_is_told_from_the_robot(text: str, name: str, at: list[float]) -> None:
+    context = Context(Dialogue(), RobotState(Pose(1.0, 1.0)))
+    obstacle = OfflineInterpreter(MECANUM).interpret(text, context).obstacle
+    assert (obstacle["add"], obstacle["circle"][:2]) == (name, at)
+
+
+def test_on_a_real_robot_nothing_is_put_anywhere() -> None:
+    understanding = Understanding(MECANUM, World("bare"), None)
+    assert understanding.interpret("put a box in front of you").outcome == "refused"
+    understanding.is_simulated = True
+    assert understanding.interpret("put a box in front of you").outcome == "answered"
+    assert understanding.interpret("take the box away").obstacle == {"remove": "box"}
