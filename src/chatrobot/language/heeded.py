@@ -12,6 +12,7 @@ import bisect
 import itertools
 from collections.abc import Callable, Sequence
 
+from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Step
@@ -38,6 +39,14 @@ _DOINGS = frozenset({"uturn", "return", "face", "wait"})
 """Verbs that do something by themselves, and are no manner of doing something else."""
 _RETURNING = frozenset({"undo", "trip"})
 """What has a return in it already."""
+_WAYS_OF_DOING = frozenset(
+    {"other_way", "mirrored", "trip", "between", "halfway", "diagonal", "swapped", "split", "leave_out", "while"}
+)
+"""Flags that say how all of it is done: what is drawn with one of them is another figure."""
+_OF_SEVERAL = frozenset({"each", "after_each", "until", "all"})
+"""Flags of what is done several times, or till something; what is drawn, counted or bounded may tell it twice."""
+_EXTENTS = frozenset({"length", "angle", "turns", "time"})
+_COUNTED = frozenset({"total", "trip", "between", "original_heading", "move", "times", "count"})
 _LONG = 40
 """So many amounts and directions are each asked about by themselves; it takes about a tenth of a second."""
 
@@ -56,6 +65,7 @@ def check_heeded(
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
     _check_clauses(atoms, steps, read)
+    _check_flags(atoms, steps, read)
     asked = [(i, changed) for i, atom in enumerate(atoms) if (changed := _changed(atom, atoms)) is not None]
     asked = [(i, changed) for i, changed in asked if not _is_adverb(atoms, i)]
     if len(asked) > _LONG:
@@ -89,6 +99,57 @@ def _check_clauses(
             continue
         if list(other) == list(steps):
             raise Unclear("unclear_motion", " ".join(a.text for a in atoms[before + 1 : end]))
+
+
+def _check_flags(
+    atoms: Sequence[Atom], steps: Sequence[Step], read: Callable[[list[Atom]], Sequence[Step]]
+) -> None:
+    """Ask back where a word for a way of doing it, for once more or several times, can be left out for nothing."""
+    for i, atom in enumerate(atoms):
+        if not _must_matter(atoms, i):
+            continue
+        try:
+            other = read([a for at, a in enumerate(atoms) if at != i and not _is_same_word(atoms, i, at)])
+        except Unclear:
+            continue
+        if list(other) == list(steps):
+            raise Unclear("unclear_motion", atom.text)
+
+
+def _must_matter(atoms: Sequence[Atom], i: int) -> bool:
+    """Whether the flag at `i` says something that no other word says, too."""
+    flag = atoms[i].value
+    others = [atom for at, atom in enumerate(atoms) if at != i]
+    if atoms[i].kind == "dir":  # 倒着走一个正方形
+        turns = not any(atom.value in ("no_turn", "sideways") for atom in others)
+        return flag == "back" and turns and any(atom.kind == "shape" for atom in others)
+    if atoms[i].kind != "flag":
+        return False
+    if flag == "again":
+        return _repeats_what_is_told(atoms, i)
+    if flag == "diagonal":  # `diagonally to the front left`
+        return not any(atom.kind in ("dir", "shape") and "_" in atom.value for atom in others)
+    if flag in _WAYS_OF_DOING:
+        return not any(atom.value == flag for atom in others)
+    drawn = any(atom.kind in ("shape", "role", "counter") or atom.value == "curve" for atom in others)
+    if flag == "all" and sum(atom.kind == "q" for atom in others) > 1:
+        return False
+    if flag == "each" and is_kind(atoms, i + 1, "q", "times"):  # 前进一米后退一米各三次
+        return sum(atom.kind == "q" for atom in others) > 2
+    return flag in _OF_SEVERAL and not drawn and not any({a.value, a.role} & _COUNTED for a in others)
+
+
+def _repeats_what_is_told(atoms: Sequence[Atom], i: int) -> bool:
+    """走一个正方形，然后原样再来: once more what stands before it, and not how often or what else."""
+    told = any(a.kind == "shape" or (a.kind == "q" and a.value in _EXTENTS) for a in atoms[:i])
+    others = (a for at, a in enumerate(atoms) if at != i and not _is_same_word(atoms, i, at))
+    bound = any(a.value in ("again", "extra", "times", "other_way", "same_amount") for a in others)
+    return told and not bound and is_chinese(atoms[i].text)
+
+
+def _is_same_word(atoms: Sequence[Atom], i: int, at: int) -> bool:
+    """Whether the atom at `at` is another meaning of the word at `i`."""
+    return at == i + 1 and atoms[i].kind == "flag" and atoms[at] == atoms[i]._replace(value="extra")
 
 
 def _not_seen_nearby(
