@@ -22,6 +22,7 @@ from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import (
     check_spoken_of,
+    is_change_alone,
     names_a_part,
     part_of_before,
     points_at_before,
@@ -104,6 +105,8 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     changed = _of_before(plain, atoms, reading)
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
+        if is_change_alone(plain, language):
+            return proposed(planned(changed, language), language) or planned(changed, language)
         return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
     if rest is not None:  # the rest of what was no shape, or is told beside a motion of its own

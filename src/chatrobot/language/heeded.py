@@ -40,7 +40,18 @@ _DOINGS = frozenset({"uturn", "return", "face", "wait"})
 _RETURNING = frozenset({"undo", "trip"})
 """What has a return in it already."""
 _WAYS_OF_DOING = frozenset(
-    {"other_way", "mirrored", "trip", "between", "halfway", "diagonal", "swapped", "split", "leave_out", "while"}
+    {
+        "other_way",
+        "mirrored",
+        "trip",
+        "between",
+        "halfway",
+        "diagonal",
+        "swapped",
+        "split",
+        "leave_out",
+        "while",
+    }
 )
 """Flags that say how all of it is done: what is drawn with one of them is another figure."""
 _OF_SEVERAL = frozenset({"each", "after_each", "until", "all"})

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -15,6 +16,7 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import resized
+from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -119,7 +121,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
 def with_part_resized(
     plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
 ) -> list[Step] | None:
-    """The last motion with another size of one part: `the same, but the first leg 2 m`; None for anything else.
+    """The last motion with another size or side of one part: `the same, but the first leg 2 m`; else None.
 
     Raises:
         Unclear: there is no such part, or it takes no such size.
@@ -134,16 +136,38 @@ def with_part_resized(
         found.groupdict(default=""),
         list(last.plan.steps),
     )
-    if len(atoms) != 1 or atoms[0].kind != "q":
+    sizes = [atom for atom in atoms if atom.kind == "q"]
+    if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "verb") for atom in atoms):
         return None
     kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
     at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
     nth = _number(said, "nth", table)
     at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
-    changed = resized([steps[at[0]]], Edit(amounts=[atoms[0]])) if at else None
+    other = _on_the_way(steps[at[0]], [atom for atom in atoms if atom.kind != "q"]) if at else None
+    changed = resized([other], Edit(amounts=sizes)) if other and sizes else [other] if other else None
     if changed is None:
         raise Unclear("unclear_motion", plain[:60])
     return [*steps[: at[0]], *changed, *steps[at[0] + 1 :]]
+
+
+def _on_the_way(step: Step, said: Sequence[Atom]) -> Step | None:
+    """The step as it goes the way that is said; None where that is no way for it."""
+    ways = {atom.value for atom in said if atom.kind == "dir"}
+    turns = {atom.value in TURN for atom in said if atom.kind == "verb"}
+    if turns - {isinstance(step, Turn)} or len(ways) > 1:
+        return None
+    if not ways:
+        return step
+    [way] = ways
+    if isinstance(step, Turn):
+        return replace(step, left=way == "left") if way in SIDES else None
+    return replace(step, direction_rad=DIRECTIONS[way]) if isinstance(step, Drive) and turns else None
+
+
+def is_change_alone(plain: str, language: str) -> bool:
+    """第二步改成右转: whether one part is to be another, and nothing says that all is to be done again."""
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    return found is not None and "whole" in found.re.groupindex and not found["whole"]
 
 
 def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
