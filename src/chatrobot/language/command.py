@@ -21,6 +21,7 @@ from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import (
+    check_no_manner,
     check_spoken_of,
     is_change_alone,
     names_a_part,
@@ -102,6 +103,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     until = read_until(plain, language)
     if until is not None:
         return _until(until, reading)
+    check_no_manner(atoms, language)
     changed = _of_before(plain, atoms, reading)
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
@@ -150,6 +152,9 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
             if is_correction(dialogue.last_motion):
                 raise Unclear("unclear_motion", atoms[-1].text)  # what was done, or what was meant?
             return [*reading.steps_of_their_own(own), *before]
+    waited = _waited(atoms)
+    if waited and not is_correction(dialogue.last_motion):
+        return [*reading.steps_of_their_own(waited), *before]
     own = frames_of(_after_again(atoms))
     if any(f.moves for f in own) and not (any(map(_refers, own)) or is_correction(dialogue.last_motion)):
         return [*before, *reading.steps_of_their_own(own)]
@@ -157,6 +162,16 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed
+
+
+def _waited(atoms: list[Atom]) -> list[Frame]:
+    """What is waited before the motion before is done once more: `wait 3 s and do it again`; nothing where none is."""
+    at = next((i for i, atom in enumerate(atoms) if atom.value == "again"), 0)
+    after = [atom for atom in atoms[at:] if atom.value not in ("again", "extra") and atom.kind not in SILENT]
+    if after or {atom.value for atom in atoms[:at] if atom.kind == "q"} != {"time"}:
+        return []
+    own = frames_of(atoms[:at])
+    return own if all(frame.verb == "wait" and "time" in frame.q for frame in own) else []
 
 
 def _refers(frame: Frame) -> bool:

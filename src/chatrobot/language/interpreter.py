@@ -26,7 +26,7 @@ from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
-from chatrobot.language.earlier_turns import answer_to_question, with_earlier_unit
+from chatrobot.language.earlier_turns import answer_to_question, with_earlier_speed, with_earlier_unit
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import told_of_units, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
@@ -272,7 +272,7 @@ def _in_words(plain: str, reading: Reading) -> Interpretation:
     told = told_of_units(plain)
     if told is not None:
         return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
-    return read_command(with_earlier_unit(plain, reading), reading)
+    return read_command(with_earlier_unit(with_earlier_speed(plain, reading), reading), reading)
 
 
 def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:

@@ -230,6 +230,11 @@ def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
     return int(word) if word.isdecimal() else int(named.get(word, 0))
 
 
+def same_speed(plain: str, language: str) -> re.Match[str] | None:
+    """Where a normalised text asks for the speed of the motion before: 跟刚才一样快."""
+    return next(filter(None, (form.search(plain) for form in _forms(language, "same_speed"))), None)
+
+
 def names_a_part(plain: str, language: str) -> bool:
     """Whether a text names a part of what was done, whatever else it says."""
     return any(form.search(plain) for form in _forms(language, "mentions"))
@@ -255,6 +260,20 @@ def _forms(language: str, name: str = "forms") -> tuple[re.Pattern[str], ...]:
 def points_at_before(atom: Atom, language: str) -> bool:
     """Whether `again` points at the motion before, not at what is told beside it: `turn around and do the same`."""
     return atom.text in load_table(language, "selections").get("same", ())
+
+
+def check_no_manner(atoms: Sequence[Atom], language: str) -> None:
+    """Ask back where `again` says how a motion of its own is done: 再退一米，照旧慢慢的.
+
+    Raises:
+        Unclear: nobody can tell in what it is to be as before.
+    """
+    words = load_table(language, "selections").get("like_before", ())
+    for i, atom in enumerate(atoms):
+        ends = all(a.kind in (*SILENT, "pace") for a in atoms[i + 1 :])
+        told = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms[:i])
+        if atom.value == "again" and atom.text in words and ends and told:
+            raise Unclear("unclear_motion", atom.text)
 
 
 def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:

@@ -30,14 +30,15 @@ def breaks_off(text: str, language: str) -> str:
 
 
 def check_consistent(text: str, language: str) -> None:
-    """Ask back where a normalised text says two things at once.
+    """Ask back where a normalised text says two things at once, or asks for a lap and not round what.
 
     Raises:
         Unclear: for such a text.
     """
-    patterns = load_table(language, "unfinished").get("contradicts", ())
-    if any(re.search(pattern, text) for pattern in patterns):
-        raise Unclear("contradiction", text[:_SHOWN])
+    table = load_table(language, "unfinished")
+    for name, code in (("contradicts", "contradiction"), ("sizeless", "which_size")):
+        if any(re.search(pattern, text) for pattern in table.get(name, ())):
+            raise Unclear(code, text[:_SHOWN])
 
 
 @cache
