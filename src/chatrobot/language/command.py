@@ -122,7 +122,8 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     corrects = any(CORRECTING & frame.flags for frame in frames)
     steps = reading.steps(frames)
     if not asks:
-        check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))
+        follows = reading.context.dialogue.last_motion is not None
+        check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)), follows=follows)
     plan = planned(steps, language, append=_appends(atoms), walk=walked.walk if walked else None)
     return replace(plan, corrects=corrects)
 
@@ -139,6 +140,9 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps
+    is_changed = any((a.kind, a.value) == ("flag", "instead") for a in atoms) and len(before) > 1
+    if is_changed and not any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in atoms):
+        raise Unclear("unclear_motion", plain[:60])  # 角度改成六十度: of what was done, or once more?
     size = with_another_size(plain, atoms, language)
     if size is not None and len(before) > 1:
         sized = resized(list(before), Edit(amounts=[size], roles={"side"}))
@@ -171,7 +175,7 @@ def _waited(atoms: list[Atom]) -> list[Frame]:
     if after or {atom.value for atom in atoms[:at] if atom.kind == "q"} != {"time"}:
         return []
     own = frames_of(atoms[:at])
-    return own if all(frame.verb == "wait" and "time" in frame.q for frame in own) else []
+    return own if all(frame.verb in STILL and "time" in frame.q for frame in own) else []
 
 
 def _refers(frame: Frame) -> bool:

@@ -189,12 +189,14 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
 
 
 def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
-    """`Do that` after a question: what was asked about, and not the motion before.
+    """`Do that` after a question: what was asked about, and not the motion before; 左转到九十度 after a turn.
 
     Raises:
-        Unclear: nobody can tell what that is.
+        Unclear: nobody can tell what that is, or how much.
     """
     words = load_table(language, "selections").get("spoken_of", ())
+    if dialogue.last_motion is not None and any(form.search(plain) for form in _forms(language, "up_to")):
+        raise Unclear("unclear_motion", plain[:60])
     last = dialogue.turns[-1] if dialogue.turns else None
     if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
         raise Unclear("nothing_before", plain[:60])
