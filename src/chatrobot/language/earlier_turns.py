@@ -17,7 +17,7 @@ from chatrobot.language.selections import same_speed
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive
+from chatrobot.plan.steps import Arc, Drive, Turn
 
 _REFERRING = frozenset({"same_amount", "again", "more"})
 """Flags of what points at the motion before, and answers no question."""
@@ -76,14 +76,14 @@ def with_earlier_speed(plain: str, reading: Reading) -> str:
     if found is None:
         return plain
     last = reading.context.dialogue.last_motion
-    drives = [
-        step for step in (last.plan.steps if last and last.plan else ()) if isinstance(step, (Drive, Arc))
-    ]
-    speeds = {step.speed_mps for step in drives}
-    if len(speeds) != 1:
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    rates = {(step.rate_radps, "角速度", "弧度每秒") for step in steps if isinstance(step, Turn)}
+    speeds = {(step.speed_mps, "速度", "米每秒") for step in steps if isinstance(step, (Drive, Arc))}
+    named = rates if re.search("角|转", found.group()) else speeds or rates
+    if len(named) != 1:
         raise Unclear("nothing_before", found.group().strip(" ,"))
-    [speed_mps] = speeds
-    told = f", 速度{speed_mps:g}米每秒" if speed_mps else ""
+    [(amount, name, unit)] = named
+    told = f", {name}{amount:g}{unit}, " if amount else ", "
     rest = f"{plain[: found.start()]}{told}{plain[found.end() :]}"
     return rest.strip(" ,;")
 

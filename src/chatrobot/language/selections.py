@@ -232,6 +232,12 @@ def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
     return int(word) if word.isdecimal() else int(named.get(word, 0))
 
 
+def speed_for_all(plain: str, language: str) -> tuple[str, str] | None:
+    """The speed that a normalised text tells for all it orders, and the rest of it; None where it tells none so."""
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "for_all"))), None)
+    return (found["speed"], found["rest"]) if found is not None else None
+
+
 def same_speed(plain: str, language: str) -> re.Match[str] | None:
     """Where a normalised text asks for the speed of the motion before: 跟刚才一样快."""
     return next(filter(None, (form.search(plain) for form in _forms(language, "same_speed"))), None)

@@ -30,13 +30,15 @@ def breaks_off(text: str, language: str) -> str:
 
 
 def check_consistent(text: str, language: str) -> None:
-    """Ask back where a normalised text says two things at once, or asks for a lap and not round what.
+    """Ask back where a normalised text says two things at once, asks for a lap and not round what, or has
+    a part that no rule reads and that changes what is meant.
 
     Raises:
         Unclear: for such a text.
     """
     table = load_table(language, "unfinished")
-    for name, code in (("contradicts", "contradiction"), ("sizeless", "which_size")):
+    asked = {"contradicts": "contradiction", "sizeless": "which_size", "unread": "unclear_motion"}
+    for name, code in asked.items():
         if any(re.search(pattern, text) for pattern in table.get(name, ())):
             raise Unclear(code, text[:_SHOWN])
 
