@@ -48,9 +48,7 @@ _WAYS_OF_DOING = frozenset(
         "halfway",
         "diagonal",
         "swapped",
-        "split",
         "leave_out",
-        "while",
     }
 )
 """Flags that say how all of it is done: what is drawn with one of them is another figure."""
