@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -71,9 +72,8 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     if fold is not None and is_chinese(fold.text):
         whole = whole.copy()
         del whole.q["fold"]
-        name = "speed" if "速" in fold.text else "scale"
-        usual = pace.speed_mps or pace.profile.defaults.speed_mps
-        whole.q[name] = quantity(name, fold.number * (usual if name == "speed" else 1.0), fold.text)
+        name = "faster" if re.search("速|快|慢", fold.text) else "scale"
+        whole.q[name] = quantity(name, fold.number, fold.text)
     before, whole = _mirrored(before, whole)
     if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in _leaves(before)):
         raise Unclear("nothing_before", whole.text)  # `the turn again`, of what drove as well

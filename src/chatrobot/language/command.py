@@ -21,7 +21,9 @@ from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import (
+    check_no_manner,
     check_spoken_of,
+    is_change_alone,
     names_a_part,
     part_of_before,
     points_at_before,
@@ -101,9 +103,12 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     until = read_until(plain, language)
     if until is not None:
         return _until(until, reading)
+    check_no_manner(atoms, language)
     changed = _of_before(plain, atoms, reading)
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
+        if is_change_alone(plain, language):
+            return proposed(planned(changed, language), language) or planned(changed, language)
         return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
     if rest is not None:  # the rest of what was no shape, or is told beside a motion of its own
@@ -117,7 +122,8 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     corrects = any(CORRECTING & frame.flags for frame in frames)
     steps = reading.steps(frames)
     if not asks:
-        check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)))
+        follows = reading.context.dialogue.last_motion is not None
+        check_heeded(atoms, steps, lambda changed: reading.steps(frames_of(changed)), follows=follows)
     plan = planned(steps, language, append=_appends(atoms), walk=walked.walk if walked else None)
     return replace(plan, corrects=corrects)
 
@@ -134,6 +140,9 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps
+    is_changed = any((a.kind, a.value) == ("flag", "instead") for a in atoms) and len(before) > 1
+    if is_changed and not any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in atoms):
+        raise Unclear("unclear_motion", plain[:60])  # 角度改成六十度: of what was done, or once more?
     size = with_another_size(plain, atoms, language)
     if size is not None and len(before) > 1:
         sized = resized(list(before), Edit(amounts=[size], roles={"side"}))
@@ -147,6 +156,9 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
             if is_correction(dialogue.last_motion):
                 raise Unclear("unclear_motion", atoms[-1].text)  # what was done, or what was meant?
             return [*reading.steps_of_their_own(own), *before]
+    waited = _waited(atoms)
+    if waited and not is_correction(dialogue.last_motion):
+        return [*reading.steps_of_their_own(waited), *before]
     own = frames_of(_after_again(atoms))
     if any(f.moves for f in own) and not (any(map(_refers, own)) or is_correction(dialogue.last_motion)):
         return [*before, *reading.steps_of_their_own(own)]
@@ -154,6 +166,16 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed
+
+
+def _waited(atoms: list[Atom]) -> list[Frame]:
+    """What is waited before the motion before is done once more: `wait 3 s and do it again`; nothing where none is."""
+    at = next((i for i, atom in enumerate(atoms) if atom.value == "again"), 0)
+    after = [atom for atom in atoms[at:] if atom.value not in ("again", "extra") and atom.kind not in SILENT]
+    if after or {atom.value for atom in atoms[:at] if atom.kind == "q"} != {"time"}:
+        return []
+    own = frames_of(atoms[:at])
+    return own if all(frame.verb in STILL and "time" in frame.q for frame in own) else []
 
 
 def _refers(frame: Frame) -> bool:

@@ -13,9 +13,11 @@ from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
+from chatrobot.language.selections import same_speed
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Turn
 
 _REFERRING = frozenset({"same_amount", "again", "more"})
 """Flags of what points at the motion before, and answers no question."""
@@ -62,6 +64,28 @@ def with_earlier_unit(plain: str, reading: Reading) -> str:
             defined_here = re.search(rf"一 ?{unit[0]}[^,。;]*(?:是|算|等于|为|按)", plain)
             return plain if defined_here else f"{plain}, 一{unit[0]}是{unit[1]}"
     return plain
+
+
+def with_earlier_speed(plain: str, reading: Reading) -> str:
+    """`还是原来那么快`: the speed of the motion before, in figures; nothing where that had none of its own.
+
+    Raises:
+        Unclear: there was no motion before, or it had several speeds.
+    """
+    found = same_speed(plain, reading.language)
+    if found is None:
+        return plain
+    last = reading.context.dialogue.last_motion
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    rates = {(step.rate_radps, "角速度", "弧度每秒") for step in steps if isinstance(step, Turn)}
+    speeds = {(step.speed_mps, "速度", "米每秒") for step in steps if isinstance(step, (Drive, Arc))}
+    named = rates if re.search("角|转", found.group()) else speeds or rates
+    if len(named) != 1:
+        raise Unclear("nothing_before", found.group().strip(" ,"))
+    [(amount, name, unit)] = named
+    told = f", {name}{amount:g}{unit}, " if amount else ", "
+    rest = f"{plain[: found.start()]}{told}{plain[found.end() :]}"
+    return rest.strip(" ,;")
 
 
 @lru_cache(maxsize=128)

@@ -12,9 +12,10 @@ import bisect
 import itertools
 from collections.abc import Callable, Sequence
 
+from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Step
+from chatrobot.plan.steps import Step, Turn
 
 _CHANGE = 1.07
 """Small enough that no limit or sign turns over, and nothing that is rounded hides it."""
@@ -38,6 +39,23 @@ _DOINGS = frozenset({"uturn", "return", "face", "wait"})
 """Verbs that do something by themselves, and are no manner of doing something else."""
 _RETURNING = frozenset({"undo", "trip"})
 """What has a return in it already."""
+_WAYS_OF_DOING = frozenset(
+    {
+        "other_way",
+        "mirrored",
+        "trip",
+        "between",
+        "halfway",
+        "diagonal",
+        "swapped",
+        "leave_out",
+    }
+)
+"""Flags that say how all of it is done: what is drawn with one of them is another figure."""
+_OF_SEVERAL = frozenset({"each", "after_each", "until", "all"})
+"""Flags of what is done several times, or till something; what is drawn, counted or bounded may tell it twice."""
+_EXTENTS = frozenset({"length", "angle", "turns", "time"})
+_COUNTED = frozenset({"trip", "between", "original_heading", "move", "times", "count"})
 _LONG = 40
 """So many amounts and directions are each asked about by themselves; it takes about a tenth of a second."""
 
@@ -46,9 +64,15 @@ _AROUND = 3
 
 
 def check_heeded(
-    atoms: Sequence[Atom], steps: Sequence[Step], read: Callable[[list[Atom]], Sequence[Step]]
+    atoms: Sequence[Atom],
+    steps: Sequence[Step],
+    read: Callable[[list[Atom]], Sequence[Step]],
+    *,
+    follows: bool = False,
 ) -> None:
     """Ask back where an amount, a count or a direction in `atoms` plays no part in `steps`, which `read` made of them.
+
+    `follows`: there was a motion before, of which `in all` may be said.
 
     Raises:
         Unclear: naming it.
@@ -56,6 +80,8 @@ def check_heeded(
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
     _check_clauses(atoms, steps, read)
+    _check_no_turn(atoms, steps)
+    _check_flags(atoms, steps, read, follows=follows)
     asked = [(i, changed) for i, atom in enumerate(atoms) if (changed := _changed(atom, atoms)) is not None]
     asked = [(i, changed) for i, changed in asked if not _is_adverb(atoms, i)]
     if len(asked) > _LONG:
@@ -89,6 +115,79 @@ def _check_clauses(
             continue
         if list(other) == list(steps):
             raise Unclear("unclear_motion", " ".join(a.text for a in atoms[before + 1 : end]))
+
+
+def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
+    """Ask back where the motion before is done once more with its turns, though it is said not to turn."""
+    denied = next((atom for atom in atoms if (atom.kind, atom.value) == ("flag", "no_turn")), None)
+    told = any(atom.kind in ("verb", "dir", "rot", "shape", "q") for atom in atoms)
+    if denied is not None and not told and any(isinstance(step, Turn) for step in steps):
+        raise Unclear("unclear_motion", denied.text)
+
+
+def _check_flags(
+    atoms: Sequence[Atom],
+    steps: Sequence[Step],
+    read: Callable[[list[Atom]], Sequence[Step]],
+    *,
+    follows: bool,
+) -> None:
+    """Ask back where a word for a way of doing it, for once more or several times, can be left out for nothing."""
+    for i, atom in enumerate(atoms):
+        if not (_must_matter(atoms, i) or (follows and _is_whole_told(atoms, i))):
+            continue
+        try:
+            other = read([a for at, a in enumerate(atoms) if at != i and not _is_same_word(atoms, i, at)])
+        except Unclear:
+            continue
+        if list(other) == list(steps):
+            raise Unclear("unclear_motion", atom.text)
+
+
+def _must_matter(atoms: Sequence[Atom], i: int) -> bool:
+    """Whether the flag at `i` says something that no other word says, too."""
+    flag = atoms[i].value
+    others = [atom for at, atom in enumerate(atoms) if at != i]
+    if atoms[i].kind == "dir":  # 倒着走一个正方形
+        turns = not any(atom.value in ("no_turn", "sideways") for atom in others)
+        return flag == "back" and turns and any(atom.kind == "shape" for atom in others)
+    if atoms[i].kind != "flag":
+        return False
+    if flag == "again":
+        return _repeats_what_is_told(atoms, i)
+    if flag == "diagonal":  # `diagonally to the front left`
+        return not any(atom.kind in ("dir", "shape") and "_" in atom.value for atom in others)
+    if flag in _WAYS_OF_DOING:
+        return not any(atom.value == flag for atom in others)
+    drawn = any(atom.kind in ("shape", "role", "counter") or atom.value == "curve" for atom in others)
+    if flag == "all" and sum(atom.kind == "q" for atom in others) > 1:
+        return False
+    if flag != "until" and any(atom.value == "total" for atom in others):
+        return False
+    if flag == "each" and is_kind(atoms, i + 1, "q", "times"):  # 前进一米后退一米各三次
+        return sum(atom.kind == "q" for atom in others) > 2
+    return flag in _OF_SEVERAL and not drawn and not any({a.value, a.role} & _COUNTED for a in others)
+
+
+def _is_whole_told(atoms: Sequence[Atom], i: int) -> bool:
+    """总共左转九十度, after a turn: whether one amount is told that may be meant with what was done."""
+    amounts = [atom for atom in atoms if atom.kind == "q"]
+    bound = any(atom.value == "short_of" for atom in atoms)
+    return (atoms[i].kind, atoms[i].value) == ("flag", "total") and len(amounts) == 1 and not bound
+
+
+def _repeats_what_is_told(atoms: Sequence[Atom], i: int) -> bool:
+    """走一个正方形，然后原样再来: once more what stands before it, and not how often or what else."""
+    told = any(a.kind == "shape" or (a.kind == "q" and a.value in _EXTENTS) for a in atoms[:i])
+    told = told or sum(a.kind == "verb" for a in atoms[i + 1 :]) > 1  # 刚才那个先左转再前进
+    others = (a for at, a in enumerate(atoms) if at != i and not _is_same_word(atoms, i, at))
+    bound = any(a.value in ("again", "extra", "times", "other_way", "same_amount") for a in others)
+    return told and not bound and is_chinese(atoms[i].text)
+
+
+def _is_same_word(atoms: Sequence[Atom], i: int, at: int) -> bool:
+    """Whether the atom at `at` is another meaning of the word at `i`."""
+    return at == i + 1 and atoms[i].kind == "flag" and atoms[at] == atoms[i]._replace(value="extra")
 
 
 def _not_seen_nearby(

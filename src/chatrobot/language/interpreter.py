@@ -26,7 +26,7 @@ from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
-from chatrobot.language.earlier_turns import answer_to_question, with_earlier_unit
+from chatrobot.language.earlier_turns import answer_to_question, with_earlier_speed, with_earlier_unit
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import told_of_units, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
@@ -45,7 +45,7 @@ from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
-from chatrobot.language.selections import wants_part
+from chatrobot.language.selections import speed_for_all, wants_part
 from chatrobot.language.starting import (
     mended_alone,
     not_ordered,
@@ -53,11 +53,11 @@ from chatrobot.language.starting import (
     without_call_sign,
     without_hold,
 )
-from chatrobot.language.tokens import tokenise
+from chatrobot.language.tokens import SILENT, tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
-from chatrobot.plan.steps import Plan, Step, Wait
+from chatrobot.plan.steps import Arc, Drive, Plan, Step, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -279,7 +279,26 @@ def _in_words(plain: str, reading: Reading) -> Interpretation:
     told = told_of_units(plain)
     if told is not None:
         return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
-    return read_command(with_earlier_unit(plain, reading), reading)
+    plain = with_earlier_unit(with_earlier_speed(plain, reading), reading)
+    return _at_one_speed(plain, reading) or read_command(plain, reading)
+
+
+def _at_one_speed(plain: str, reading: Reading) -> Interpretation | None:
+    """速度0.15，左平移一米，右平移一米: the speed holds for all of them; None where one drive is told, or no speed."""
+    told = speed_for_all(plain, reading.language)
+    if told is None:
+        return None
+    said = told[0] if "秒" in told[0] or "/s" in told[0] else f"{told[0]}米每秒"
+    speeds = [atom for atom in reading.atoms(said) if atom.kind not in SILENT]
+    meant = read_command(told[1], reading)
+    steps = meant.plan.steps if meant.plan is not None else ()
+    drives = [step for step in steps if isinstance(step, (Drive, Arc))]
+    if len(drives) < 2 or [atom.value for atom in speeds] != ["speed"]:
+        return None
+    if any(step.speed_mps for step in drives):
+        raise Unclear("unclear_motion", told[0])
+    at_speed = [replace(s, speed_mps=speeds[0].number) if s in drives else s for s in steps]
+    return replace(meant, plan=Plan(tuple(at_speed)))
 
 
 def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -15,6 +16,7 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import resized
+from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -119,7 +121,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
 def with_part_resized(
     plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
 ) -> list[Step] | None:
-    """The last motion with another size of one part: `the same, but the first leg 2 m`; None for anything else.
+    """The last motion with another size or side of one part: `the same, but the first leg 2 m`; else None.
 
     Raises:
         Unclear: there is no such part, or it takes no such size.
@@ -134,16 +136,38 @@ def with_part_resized(
         found.groupdict(default=""),
         list(last.plan.steps),
     )
-    if len(atoms) != 1 or atoms[0].kind != "q":
+    sizes = [atom for atom in atoms if atom.kind == "q"]
+    if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "verb") for atom in atoms):
         return None
     kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
     at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
     nth = _number(said, "nth", table)
     at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
-    changed = resized([steps[at[0]]], Edit(amounts=[atoms[0]])) if at else None
+    other = _on_the_way(steps[at[0]], [atom for atom in atoms if atom.kind != "q"]) if at else None
+    changed = resized([other], Edit(amounts=sizes)) if other and sizes else [other] if other else None
     if changed is None:
         raise Unclear("unclear_motion", plain[:60])
     return [*steps[: at[0]], *changed, *steps[at[0] + 1 :]]
+
+
+def _on_the_way(step: Step, said: Sequence[Atom]) -> Step | None:
+    """The step as it goes the way that is said; None where that is no way for it."""
+    ways = {atom.value for atom in said if atom.kind == "dir"}
+    turns = {atom.value in TURN for atom in said if atom.kind == "verb"}
+    if turns - {isinstance(step, Turn)} or len(ways) > 1:
+        return None
+    if not ways:
+        return step
+    [way] = ways
+    if isinstance(step, Turn):
+        return replace(step, left=way == "left") if way in SIDES else None
+    return replace(step, direction_rad=DIRECTIONS[way]) if isinstance(step, Drive) and turns else None
+
+
+def is_change_alone(plain: str, language: str) -> bool:
+    """第二步改成右转: whether one part is to be another, and nothing says that all is to be done again."""
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    return found is not None and "whole" in found.re.groupindex and not found["whole"]
 
 
 def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
@@ -165,12 +189,14 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
 
 
 def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
-    """`Do that` after a question: what was asked about, and not the motion before.
+    """`Do that` after a question: what was asked about, and not the motion before; 左转到九十度 after a turn.
 
     Raises:
-        Unclear: nobody can tell what that is.
+        Unclear: nobody can tell what that is, or how much.
     """
     words = load_table(language, "selections").get("spoken_of", ())
+    if dialogue.last_motion is not None and any(form.search(plain) for form in _forms(language, "up_to")):
+        raise Unclear("unclear_motion", plain[:60])
     last = dialogue.turns[-1] if dialogue.turns else None
     if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
         raise Unclear("nothing_before", plain[:60])
@@ -206,6 +232,17 @@ def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
     return int(word) if word.isdecimal() else int(named.get(word, 0))
 
 
+def speed_for_all(plain: str, language: str) -> tuple[str, str] | None:
+    """The speed that a normalised text tells for all it orders, and the rest of it; None where it tells none so."""
+    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "for_all"))), None)
+    return (found["speed"], found["rest"]) if found is not None else None
+
+
+def same_speed(plain: str, language: str) -> re.Match[str] | None:
+    """Where a normalised text asks for the speed of the motion before: 跟刚才一样快."""
+    return next(filter(None, (form.search(plain) for form in _forms(language, "same_speed"))), None)
+
+
 def names_a_part(plain: str, language: str) -> bool:
     """Whether a text names a part of what was done, whatever else it says."""
     return any(form.search(plain) for form in _forms(language, "mentions"))
@@ -231,6 +268,20 @@ def _forms(language: str, name: str = "forms") -> tuple[re.Pattern[str], ...]:
 def points_at_before(atom: Atom, language: str) -> bool:
     """Whether `again` points at the motion before, not at what is told beside it: `turn around and do the same`."""
     return atom.text in load_table(language, "selections").get("same", ())
+
+
+def check_no_manner(atoms: Sequence[Atom], language: str) -> None:
+    """Ask back where `again` says how a motion of its own is done: 再退一米，照旧慢慢的.
+
+    Raises:
+        Unclear: nobody can tell in what it is to be as before.
+    """
+    words = load_table(language, "selections").get("like_before", ())
+    for i, atom in enumerate(atoms):
+        ends = all(a.kind in (*SILENT, "pace") for a in atoms[i + 1 :])
+        told = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms[:i])
+        if atom.value == "again" and atom.text in words and ends and told:
+            raise Unclear("unclear_motion", atom.text)
 
 
 def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:

@@ -57,10 +57,13 @@ def mended_alone(text: str) -> str:
 def not_ordered(plain: str, language: str) -> str:
     """Why what a normalised text seems to order is not to be done, as a reason; "" where nothing says so.
 
-    It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted.
+    It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted, or what ends
+    it is for no sensor to tell.
     """
     if _pattern(language, "withdrawn").search(plain):
         return "taken_back"
+    if _pattern(language, "bounded").search(plain):
+        return "condition"
     return "nothing_to_do" if _pattern(language, "told").search(plain) else ""
 
 

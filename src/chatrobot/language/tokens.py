@@ -16,7 +16,8 @@ _MEASURED = frozenset("长宽高")
 
 _WORD, _GUESS, _UNKNOWN = 1.0, 2.2, 6.0
 
-_HEARD, _NAMED = 0.8, -0.1
+_HEARD, _NAMED, _BEARING = 0.8, -0.1, 0.5
+"""A word that nobody reads, though it bears on what is meant, is cheaper than words that sound like its parts."""
 
 
 SILENT = frozenset({"sep", "conn", "filler", "glue", "reason"})
@@ -106,6 +107,8 @@ def _cover(
                 continue  # `to the front` of `drive to the front door`, where the front door is a place
             meaning = names.get(key) or words.words.get(key)
             price = _NAMED if key in names else _WORD
+            if meaning is not None and meaning[0][0] == "unknown":
+                price = _BEARING
             if meaning is None:
                 meaning, price = words.guesses.get(key), guess
             if (

@@ -30,14 +30,17 @@ def breaks_off(text: str, language: str) -> str:
 
 
 def check_consistent(text: str, language: str) -> None:
-    """Ask back where a normalised text says two things at once.
+    """Ask back where a normalised text says two things at once, asks for a lap and not round what, or has
+    a part that no rule reads and that changes what is meant.
 
     Raises:
         Unclear: for such a text.
     """
-    patterns = load_table(language, "unfinished").get("contradicts", ())
-    if any(re.search(pattern, text) for pattern in patterns):
-        raise Unclear("contradiction", text[:_SHOWN])
+    table = load_table(language, "unfinished")
+    asked = {"contradicts": "contradiction", "sizeless": "which_size", "unread": "unclear_motion"}
+    for name, code in asked.items():
+        if any(re.search(pattern, text) for pattern in table.get(name, ())):
+            raise Unclear(code, text[:_SHOWN])
 
 
 @cache
