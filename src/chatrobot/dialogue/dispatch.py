@@ -73,6 +73,8 @@ class Dispatch:
             reply = self._understanding.say(code, utterance.text)
             if utterance.kind == "pause":
                 reply = self._told("paused_now", self._resuming.paused)
+            else:
+                self._understanding.forget_held()
             self._emit(Interpreted(utterance.turn, "reflex", "", ""))
             self._requests.conclude(utterance.turn, "stopped", reply)
 
@@ -196,6 +198,7 @@ class Dispatch:
         self._emit(interpreted)
         if meant.outcome == "stop":
             self._stop(utterance.text[:80])
+            self._understanding.forget_held()
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
             self._understanding.note_unmoved(utterance.text, meant)

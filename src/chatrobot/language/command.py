@@ -101,7 +101,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     until = read_until(plain, language)
     if until is not None:
         return _until(until, reading)
-    changed = _of_before(plain, atoms, reading)
+    changed = of_before(plain, atoms, reading)
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
         return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
@@ -122,7 +122,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     return replace(plan, corrects=corrects)
 
 
-def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | None:
+def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | None:
     """What takes its steps from turns before: a part of them, the whole changed, or the same after a motion of its own.
 
     Raises:

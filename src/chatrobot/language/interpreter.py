@@ -30,10 +30,11 @@ from chatrobot.language.earlier_turns import answer_to_question, with_earlier_un
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import told_of_units, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
+from chatrobot.language.held import answered, changed, is_taken_back
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.likeliest import likeliest, proposed
+from chatrobot.language.likeliest import likeliest, offer, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
@@ -93,7 +94,7 @@ class OfflineInterpreter:
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
-        meant = self._meant(text, language, context)
+        meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language) if offers else ""
         return asked_back(Unclear(reason, text), language) if reason else meant
@@ -150,7 +151,30 @@ class OfflineInterpreter:
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""
         rest = without_hold(normalise(text), language)
-        return proposed(self._ordered(rest, language, context), language, code="held") if rest else None
+        if not rest:
+            return None
+        meant = self._ordered(rest, language, context)
+        return proposed(meant, language, code="held") or (meant if meant.define else None)
+
+    def _of_held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
+        """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood."""
+        held = context.dialogue.held
+        if held is None:
+            return None
+        reading = Reading(language, context, self._profile)
+        plain = rephrased(normalise(text), language)
+        if is_taken_back(plain, language):
+            return Interpretation("answered", say(language, "offer_declined"), language)
+        own = replace(context, dialogue=replace(context.dialogue, pending="", held=None))
+        try:
+            meant = answered(plain, held.steps, reading)
+            steps = changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
+        except Unclear as problem:
+            return asked_back(problem, language)
+        if meant is None and steps is not None:
+            return proposed(planned(steps, language), language, code="held")
+        meant = meant or self._meant(text, language, own)
+        return replace(meant, proposal=offer(held, language)) if meant.outcome == "answered" else meant
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.

@@ -104,8 +104,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         return None
     table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
     named = said.get("kind", "")
-    kind = next((kind for kind, words in table["kinds"].items() if named in words), "step")
-    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    at = [i for i, step in enumerate(steps) if isinstance(step, step_kinds(named, language))]
     nth = _number(said, "nth", table)
     if nth:
         at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
@@ -197,6 +196,12 @@ def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
     return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
+
+
+def step_kinds(named: str, language: str) -> tuple[type[Step], ...]:
+    """The kinds of steps that a word like `turns` or `leg` names; all of them for any other."""
+    kinds = load_table(language, "selections")["kinds"].items()
+    return _KINDS[next((kind for kind, words in kinds if named in words), "step")]
 
 
 def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
