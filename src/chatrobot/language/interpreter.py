@@ -45,6 +45,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
+from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.starting import (
     mended_alone,
     not_ordered,
@@ -186,6 +187,11 @@ class OfflineInterpreter:
         told = answer_about_places(plain, language, context)
         if told is not None:
             return told
+        part = part_of_shape(
+            plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
+        )
+        if part is not None:
+            return planned(part, language)
         names = names_in(context)
         reads = read_acts(plain, names)
         talk = talk_in(reads)
@@ -210,6 +216,12 @@ class OfflineInterpreter:
         if meant.outcome != "plan" or read_twists(plain):
             return meant
         return self._surely_ordered(meant, plain, reads, language, context)
+
+    def _steps(self, text: str, language: LanguageCode, context: Context) -> list[Step]:
+        meant = self._ordered(text, language, context)
+        if meant.plan is None:
+            raise Unclear(meant.code or "unclear_motion", meant.unaccounted or text[:60])
+        return list(meant.plan.steps)
 
     def _surely_ordered(
         self,
