@@ -63,11 +63,21 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return more
     if {"again", "more"} <= whole.flags and any("another" in frame.texts for frame in frames):
         raise Unclear("unclear_motion", whole.text)  # `again, another 20 cm`: so much more, or only so much?
+    if _is_another_kind(whole, context):
+        return None
     if is_change(whole):
         if is_correction(context.dialogue.last_motion):
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(context.dialogue.last_motion), whole, pace)
     return None
+
+
+def _is_another_kind(whole: Frame, context: Context) -> bool:
+    """`Again 50 cm forward`, after a turn: a motion of its own, told in full."""
+    last = context.dialogue.last_motion
+    turned = last is not None and last.plan is not None and all(isinstance(s, Turn) for s in last.plan.steps)
+    told = "length" in whole.q and whole.direction in ("forward", "back") and not whole.rot
+    return turned and told and "again" in whole.flags and not {"other_way", "more"} & whole.flags
 
 
 def _only_turned(context: Context) -> bool:

@@ -39,7 +39,7 @@ from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.place_questions import answer_about_places
+from chatrobot.language.place_questions import answer_about_places, with_spoken_place
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
@@ -95,6 +95,7 @@ class OfflineInterpreter:
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
+        text = with_spoken_place(text, language, context)
         meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language) if offers else ""

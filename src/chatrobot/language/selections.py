@@ -155,12 +155,13 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "listed"))), None)
     if last is None or last.plan is None or found is None:
         return None
-    table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
+    table, said = load_table(language, "selections"), found.groupdict(default="")
+    units = _units(dialogue, "step")
     at = [_number({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
-    at = [n + len(steps) + 1 if n < 0 else n for n in at]
-    if not all(1 <= n <= len(steps) for n in at) or len(steps) < 2:
+    at = [n + len(units) + 1 if n < 0 else n for n in at]
+    if not all(1 <= n <= len(units) for n in at) or len(units) < 2:
         raise Unclear("nothing_before", plain)
-    return [steps[n - 1] for n in at]
+    return [step for n in at for step in units[n - 1]]
 
 
 def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:

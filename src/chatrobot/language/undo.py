@@ -71,6 +71,9 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     ):
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
+    if "last_part" in whole.flags:  # of several steps one is taken back
+        turns = [step for entry in context.dialogue.ledger.done for step in entry.way or ()][-1:]
+        turns = 1 if len(context.dialogue.ledger.undoes(1).way or ()) == 1 else turns
     few = 1 == len(context.dialogue.ledger.done) < count
     if "last_step" in whole.flags or (counts and counts[0].role == "step") or few:
         turns = _last_steps(int(count), context, whole.text)
