@@ -240,10 +240,10 @@ class Understanding:
         if outcome == "completed":
             self._learn(meant)
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._note_end(TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number), finished)
-        if rehearse_only and outcome == "completed":
-            return say(meant.language, "only_rehearsed")
-        return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
+        told = describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
+        record = TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number, told=told)
+        self._note_end(record, finished)
+        return say(meant.language, "only_rehearsed") if rehearse_only and outcome == "completed" else told
 
     def describe(self, steps: Sequence[Step]) -> str:
         """Return steps in a few words."""
@@ -253,10 +253,9 @@ class Understanding:
         """Remember a turn that a model planned; return the reply, in the language of the order."""
         language = self.language_of(text)
         plan = _plan_of(ended.steps) if not rehearse_only and ended.finished is not None else None
-        self._note_end(TurnRecord(text, ended.outcome, plan), ended.finished)
-        if rehearse_only and ended.outcome == "completed":
-            return say(language, "only_rehearsed")
-        return describe_model_end(ended, language)
+        told = describe_model_end(ended, language)
+        self._note_end(TurnRecord(text, ended.outcome, plan, told=told), ended.finished)
+        return say(language, "only_rehearsed") if rehearse_only and ended.outcome == "completed" else told
 
     def _learn(self, meant: Interpretation) -> None:
         dialogue = self._dialogue
