@@ -18,6 +18,7 @@ from chatrobot.language.edits import resized
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import once_of
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _KINDS: dict[str, tuple[type[Step], ...]] = {
@@ -186,7 +187,7 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     if last is None or last.plan is None or found is None:
         return None
     steps = list(last.plan.steps)
-    once = next(n for n in range(1, len(steps) + 1) if steps == steps[:n] * (len(steps) // n))
+    once = once_of(steps)
     count = _number(found.groupdict(default=""), "count", load_table(language, "selections")) or 1
     return steps[:once] * count if once < len(steps) else None
 

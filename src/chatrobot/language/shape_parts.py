@@ -131,13 +131,15 @@ def _next_slice(plain: str, language: str, dialogue: Dialogue) -> list[Step] | N
     Raises:
         Unclear: another part comes next, or none is left.
     """
-    said = _said("slice", plain, language)
+    said = _said("slice", plain, language) or _said("once_more", plain, language)
     arcs = _arcs_before(dialogue) if said is not None else []
     if said is None or not arcs:
         return None
-    parts = load_table(language, "shape_parts")["sizes"][said["part"]]
-    last, sweep = arcs[-1], 2 * math.pi / parts
-    if not math.isclose(last.angle_rad, sweep, rel_tol=1e-6) or len(arcs) >= parts:
+    last = arcs[-1]
+    parts = round(2 * math.pi / last.angle_rad)
+    named = load_table(language, "shape_parts")["sizes"].get(said.get("part", ""), parts)
+    whole = math.isclose(last.angle_rad * parts, 2 * math.pi, rel_tol=1e-6)
+    if not whole or named != parts or len(arcs) >= parts or (len(arcs) < 2 and "part" not in said):
         return None
     nth = parts if said["nth"] in ("last", "final", "remaining") else _number(said["nth"], language)
     if (nth and nth != len(arcs) + 1) or (said["nth"] == "other" and parts != 2):
