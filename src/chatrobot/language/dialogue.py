@@ -52,9 +52,6 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
-    bare = whole.verb not in ("face", "turn") and any("forward again" in text for text in whole.texts)
-    if bare and not whole.has_extent:
-        raise Unclear("unclear_motion", whole.text)  # `all of it forward again`: to drive there, or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
         _check_not_counted(whole, frames)
         if {"bit", "halfway"} & whole.flags and not is_chinese(whole.text):
@@ -89,6 +86,7 @@ def _check_not_counted(whole: Frame, frames: Sequence[Frame]) -> None:
     """
     counted = (text for frame in frames for text in frame.texts if text.split()[-1] in _COUNTED)
     said = next(counted, "") if {"all", "both"} & whole.flags else ""
+    said = said or (whole.text if "all" in whole.flags and whole.direction else "")
     if said:
         raise Unclear("unclear_motion", said)
 

@@ -91,7 +91,11 @@ def _the_same_to(frame: Frame, state: State) -> Frame:
 
 
 def _with_same_amount(frame: Frame, state: State) -> Frame:
-    if "same_amount" not in frame.flags or frame.has_extent:
+    there = {"forward": "back", "back": "forward"}.get(frame.direction, "")
+    and_back = (
+        "again" in frame.flags and bool(state.steps) and state.last == "drive" and state.direction == there
+    )
+    if not (and_back or "same_amount" in frame.flags) or frame.has_extent:  # `back 40 cm and forward again`
         return frame
     before = _amount_before(frame, state)
     if before is None:
