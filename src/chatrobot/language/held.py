@@ -48,10 +48,18 @@ def changed(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> li
     """
     if plain.rstrip().endswith("?"):
         return None
+    plain = plain.rpartition("? ")[2]  # `class, is that too far? make it one`
     steps = list(plan.steps)
     named = _said("part", plain, reading)
     if named is not None:
         return _with_part(named, steps, reading, read_anew)
+    each = _said("each", plain, reading)
+    if each is not None:
+        kinds = step_kinds(each["sole"], reading.language)
+        every = [_of_one(each["new"], [s], reading) if isinstance(s, kinds) else [s] for s in steps]
+        if any(part is None for part in every):
+            raise Unclear("unclear_motion", each["new"])
+        return [step for part in every for step in part or ()]
     for name in ("dropped", "only"):
         found = _said(name, plain, reading)
         if found is not None:

@@ -176,7 +176,11 @@ class OfflineInterpreter:
         if meant is None and steps is not None:
             return proposed(planned(steps, language), language, code="held")
         meant = meant or self._meant(text, language, own)
-        return replace(meant, proposal=offer(held, language)) if meant.outcome == "answered" else meant
+        if meant.outcome == "answered":
+            return replace(meant, proposal=offer(held, language))
+        if meant.proposal is not None and not meant.is_held:  # no guess takes the place of what was to wait
+            return asked_back(Unclear("unknown_part", meant.unaccounted or text[:60]), language)
+        return meant
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
