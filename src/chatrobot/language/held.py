@@ -50,7 +50,7 @@ def changed(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> li
         return None
     plain = plain.rpartition("? ")[2]  # `class, is that too far? make it one`
     steps = list(plan.steps)
-    named = _said("part", plain, reading)
+    named = _said("part", plain, reading) or _said("sole", plain, reading)
     if named is not None:
         return _with_part(named, steps, reading, read_anew)
     each = _said("each", plain, reading)
