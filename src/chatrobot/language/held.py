@@ -6,7 +6,7 @@ The words are `data/<code>/held.toml`. What changes it is read back, and waits a
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -76,7 +76,31 @@ def changed(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> li
     if found is not None:
         return [*steps, *_steps(read_anew(found["new"]))]
     own = read_anew(plain) if _pattern(reading.language, "instead").search(plain) else None
-    return list(own.plan.steps) if own is not None and own.plan is not None else None
+    return (
+        _in_place(own.plan.steps, steps, plain, reading) if own is not None and own.plan is not None else None
+    )
+
+
+def _in_place(own: Sequence[Step], steps: list[Step], plain: str, reading: Reading) -> list[Step]:
+    """What is meant instead: a motion of its own; without an amount it is the side of the one that takes it.
+
+    Raises:
+        Unclear: it is less than a motion, and several could be meant.
+    """
+    whole = len(own) > 1 or len(steps) == 1 or _pattern(reading.language, "instead_of_all").search(plain)
+    if any(atom.kind in ("q", "shape", "place") for atom in reading.atoms(plain)):
+        if whole:
+            return list(own)
+        raise Unclear("unclear_motion", plain[:60])  # instead of all of it, or of one step?
+    at = [i for i, step in enumerate(steps) if len(own) == 1 and type(step) is type(own[0])]
+    if len(at) != 1:
+        raise Unclear("unclear_motion", plain[:60])
+    old, new = steps[at[0]], own[0]
+    if isinstance(old, Turn) and isinstance(new, Turn):
+        new = replace(old, left=new.left)
+    elif isinstance(old, Drive) and isinstance(new, Drive):
+        new = replace(old, direction_rad=new.direction_rad)
+    return [*steps[: at[0]], new, *steps[at[0] + 1 :]]
 
 
 def is_taken_back(plain: str, language: str) -> bool:

@@ -62,7 +62,10 @@ def selected(
         first = at - 1 if at > 0 else len(units) + at - (count - 1 if at == -1 else 0)
         chosen = units[first : first + count] if 0 <= first <= len(units) - count else []
     else:
-        chosen = units if said.get("all") or len(units) == count else []
+        every = said.get("all") or (
+            not said.get("count") and said.get("kind", "") in table.get("plurals", {})
+        )
+        chosen = units if every or len(units) == count else []
     if not chosen:
         raise Unclear("nothing_before", plain)
     times = whole_number(counts[0].number, counts[0].text) if counts else 1
@@ -88,8 +91,8 @@ def part_of_before(
 
 def wants_part(plain: str, language: str) -> bool:
     """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
-    names = ("without", "without_nth", "resized", "listed", "further")
-    return any(form.fullmatch(plain) for name in names for form in _forms(language, name))
+    names = ("forms", "without", "without_nth", "resized", "listed", "further")
+    return any(form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name))
 
 
 def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 from chatrobot.language.context import Dialogue
@@ -144,7 +145,8 @@ def _next_slice(plain: str, language: str, dialogue: Dialogue) -> list[Step] | N
     nth = parts if said["nth"] in ("last", "final", "remaining") else _number(said["nth"], language)
     if (nth and nth != len(arcs) + 1) or (said["nth"] == "other" and parts != 2):
         raise Unclear("unclear_motion", plain[:60])
-    return [last]
+    way = said.get("way", "")
+    return [replace(last, left=way == "left") if way else last]
 
 
 def _arcs_before(dialogue: Dialogue) -> list[Arc]:
