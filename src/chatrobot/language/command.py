@@ -151,7 +151,9 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     if any(f.moves for f in own) and not (any(map(_refers, own)) or is_correction(dialogue.last_motion)):
         return [*before, *reading.steps_of_their_own(own)]
     changed = edited(atoms, dialogue)
-    if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):
+    leaves_out = any(a.value in ("leave_out", "first", "swapped") for a in atoms)
+    again = any(a.value == "again" for a in atoms)
+    if again and not (changed is not None and leaves_out) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed
 

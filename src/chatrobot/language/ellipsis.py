@@ -11,6 +11,8 @@ from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
+RATE = "rate"
+"""The role of a bare number after `at`: how fast, and never how far."""
 _SLIDING = frozenset({"no_turn", "sideways"})
 _MOST_M, _LEAST_DEG = 2.0, 5.0
 """A bare number is so many metres at most, and so many degrees at least."""
@@ -120,6 +122,8 @@ def _with_computed_length(frame: Frame, state: State) -> Frame:
 def _with_unit(frame: Frame, state: State) -> Frame:
     """The frame's bare number with its unit, where only one unit can be meant."""
     number = frame.q["number"]
+    if number.role == RATE:
+        return frame
     if "转返" in frame.texts and state.last != "turn":
         raise Unclear("which_side", frame.text)
     if number.text == "一半" and not frame.has_extent:

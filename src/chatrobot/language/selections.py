@@ -174,7 +174,10 @@ def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
     Raises:
         Unclear: nobody can tell what that is.
     """
-    words = load_table(language, "selections").get("spoken_of", ())
+    table = load_table(language, "selections")
+    words = table.get("spoken_of", ())
+    if plain.strip(" .!") in table.get("pointing", ()):
+        raise Unclear("unclear_motion", plain[:60])
     last = dialogue.turns[-1] if dialogue.turns else None
     if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
         raise Unclear("nothing_before", plain[:60])
