@@ -11,19 +11,23 @@ from dataclasses import replace
 from functools import cache
 
 from chatrobot.language.answers import with_manner
-from chatrobot.language.command import of_before
+from chatrobot.language.command import of_before, read_command
 from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.dialogue import refer
+from chatrobot.language.earlier_turns import answer_to_question
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import in_unit_before, resized
 from chatrobot.language.frames import DIRECTIONS, SIDES
-from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpretation import Interpretation, asked_back
 from chatrobot.language.inverse import is_sideways
 from chatrobot.language.last_motion import said_unit_m
 from chatrobot.language.ledger import TurnRecord
+from chatrobot.language.likeliest import proposed
+from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import step_kinds
+from chatrobot.language.starting import without_hold
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
@@ -122,6 +126,26 @@ def answered(plain: str, steps: tuple[Step, ...], reading: Reading) -> Interpret
     code = "answer_step" if named and len(at) == 1 else "answer_plan"
     text = describe_steps([steps[i] for i in at], language)
     return Interpretation("answered", say(language, code, n=at[0] + 1, text=text), language)
+
+
+def answered_late(plain: str, reading: Reading) -> Interpretation | None:
+    """What completes an order that was to wait and was asked back: it waits still; None for any other text.
+
+    `Turn 90 when I say so`, then `left`.
+    """
+    dialogue, language = reading.context.dialogue, reading.language
+    rest = without_hold(normalise(dialogue.pending), language) if dialogue.pending else ""
+    if not rest or any(atom.kind in ("verb", "shape", "place", "defined") for atom in reading.atoms(plain)):
+        return None
+    context = replace(reading.context, dialogue=replace(dialogue, pending=rest))
+    try:
+        found = answer_to_question(plain, replace(reading, context=context))
+        if found is not None:
+            return proposed(found, language, code="held") or found
+        moves = read_command(plain, reading).plan is not None
+    except Unclear:
+        return None
+    return asked_back(Unclear("not_done_before", dialogue.pending[:60]), language) if moves else None
 
 
 def _with_part(said: dict[str, str], steps: list[Step], reading: Reading, read_anew: ReadAnew) -> list[Step]:

@@ -30,7 +30,7 @@ from chatrobot.language.earlier_turns import answer_to_question, with_earlier_un
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import told_of_units, with_known_counts, with_measured_things
 from chatrobot.language.glossed import in_known_words, read_glossed
-from chatrobot.language.held import answered, changed, is_taken_back
+from chatrobot.language.held import answered, answered_late, changed, is_taken_back
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.lexicon import lexicon
@@ -160,11 +160,10 @@ class OfflineInterpreter:
 
     def _of_held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood."""
-        held = context.dialogue.held
-        if held is None:
-            return None
-        reading = Reading(language, context, self._profile)
+        held, reading = context.dialogue.held, Reading(language, context, self._profile)
         plain = rephrased(normalise(text), language)
+        if held is None:
+            return answered_late(plain, reading)
         if is_taken_back(plain, language):
             return Interpretation("answered", say(language, "offer_declined"), language)
         own = replace(context, dialogue=replace(context.dialogue, pending="", held=None))

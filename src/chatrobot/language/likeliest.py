@@ -178,7 +178,9 @@ def _with_unit(
 ) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far; a number alone in the unit used before."""
     at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
-    if len(at) != 1 or not _DECIMAL.fullmatch(number):
+    if (
+        len(at) != 1 or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at ")
+    ):  # `back at 20`: how fast
         return None
     moving = (sign for clause in clauses_of(plain) for sign in clause.signs if sign.moves)
     if unit in ("", "m") or (unit == _DEG and any(sign.label not in _ALONE for sign in moving)):
