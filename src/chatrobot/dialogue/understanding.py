@@ -13,9 +13,8 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.places import MapWays, Places
+from chatrobot.dialogue.places import MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
-from chatrobot.dialogue.rest import RestWatch
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import Interpretation, LanguageCode

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Pose
@@ -217,3 +218,12 @@ def _means_degrees(frame: Frame, value: float) -> bool:
     turning = frame.turning or (not frame.verb and frame.direction in SIDES and not _SLIDING & frame.flags)
     spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
     return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
+
+
+def with_rates(atoms: Sequence[Atom]) -> list[Atom]:
+    """`To the right at 15`: a bare number after `at` is how fast, and no way or angle."""
+    before = ["", *(atom.text for atom in atoms)]
+    bare = [
+        text == "at" and (a.kind, a.value, a.role) == ("q", "number", "") for text, a in zip(before, atoms)
+    ]
+    return [a._replace(role=RATE) if is_bare else a for a, is_bare in zip(atoms, bare)]

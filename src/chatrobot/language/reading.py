@@ -14,7 +14,7 @@ from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context
 from chatrobot.language.corrections import corrected, with_slips, without_negated
 from chatrobot.language.dialogue import refer, walked
-from chatrobot.language.ellipsis import RATE
+from chatrobot.language.ellipsis import with_rates
 from chatrobot.language.facts import with_defined_units, with_words_counted
 from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import LanguageCode
@@ -73,7 +73,7 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear)
-        atoms = without_restated(in_shares(with_multiples(with_slips(_with_rates(read_quantities(atoms))))))
+        atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(read_quantities(atoms))))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
@@ -139,15 +139,6 @@ def _goes_on_after_again(frames: Sequence[Frame]) -> bool:
     if len(frames) < 2 or frames[0].verb or frames[1].joined != "then" or not frames[1].moves:
         return False
     return "again" in frames[0].flags and not frames[0].q and not is_chinese(frames[0].text)
-
-
-def _with_rates(atoms: Sequence[Atom]) -> list[Atom]:
-    """`To the right at 15`: a bare number after `at` is how fast, and no way or angle."""
-    before = ["", *(atom.text for atom in atoms)]
-    bare = [
-        text == "at" and (a.kind, a.value, a.role) == ("q", "number", "") for text, a in zip(before, atoms)
-    ]
-    return [a._replace(role=RATE) if is_bare else a for a, is_bare in zip(atoms, bare)]
 
 
 def _done_as_taught(atoms: Sequence[Atom]) -> list[Atom]:
