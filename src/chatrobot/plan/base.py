@@ -23,7 +23,9 @@ def require_positive(step: object, *names: str) -> None:
     """Raise ValueError for a field that is not above zero, or infinite. None passes: it was left out."""
     for name in names:
         told = getattr(step, name)
-        require(told is None or 0.0 < told < math.inf, f"{name} must be a finite number above zero, not {told}")
+        require(
+            told is None or 0.0 < told < math.inf, f"{name} must be a finite number above zero, not {told}"
+        )
 
 
 def require_finite(step: object, *names: str) -> None:
