@@ -22,10 +22,9 @@ def require(condition: bool, problem: str) -> None:
 def require_positive(step: object, *names: str) -> None:
     """Raise ValueError for a field that is not above zero, or infinite. None passes: it was left out."""
     for name in names:
-        told = getattr(step, name)
-        require(
-            told is None or 0.0 < told < math.inf, f"{name} must be a finite number above zero, not {told}"
-        )
+        value = getattr(step, name)
+        ok = value is None or (math.isfinite(value) and value > 0.0)
+        require(ok, f"{name} must be a finite number above zero, not {value}")
 
 
 def require_finite(step: object, *names: str) -> None:
