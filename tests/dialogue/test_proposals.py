@@ -62,6 +62,28 @@ def test_go_starts_what_was_held_back(word: str) -> None:
     assert (result.outcome, round(result.path_m, 2)) == ("completed", 0.3)
 
 
+def test_go_starts_what_was_held_back_as_it_was_changed_and_not_after_a_stop() -> None:
+    talk = Talk()
+    for text in ("forward 30 cm, but don't do it yet", "make it 20", "what's the plan?"):
+        assert talk.session.do(text).path_m == 0.0
+    assert round(talk.session.do("go").path_m, 2) == 0.2
+    for text in ("forward 30 cm, but don't do it yet", "stop", "make it 20", "go"):
+        assert talk.session.do(text).path_m == 0.0
+
+
+def test_go_after_a_change_that_was_not_understood_drives_nothing() -> None:
+    talk = Talk()
+    for text in ("forward 30 cm when I tell you to", "the frobnicator first", "go"):
+        assert talk.session.do(text).path_m == 0.0
+
+
+def test_what_was_done_is_told_as_it_was_measured() -> None:
+    talk = Talk()
+    talk.session.do("forward 30 cm")
+    talk.session.do("mumble the fnord")
+    assert "drove 0.30 m" in talk.session.do("what did you just do?").reply
+
+
 def test_a_yes_is_approved_where_approval_is_asked() -> None:
     talk = asked(options=Options(approve=True))
     turn = talk.session.say("yes")

@@ -20,6 +20,7 @@ from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
+from chatrobot.language.shape_parts import asks_for_rest
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
@@ -73,6 +74,8 @@ class Dispatch:
             reply = self._understanding.say(code, utterance.text)
             if utterance.kind == "pause":
                 reply = self._told("paused_now", self._resuming.paused)
+            else:
+                self._understanding.forget_held()
             self._emit(Interpreted(utterance.turn, "reflex", "", ""))
             self._requests.conclude(utterance.turn, "stopped", reply)
 
@@ -119,7 +122,7 @@ class Dispatch:
             self._requests.conclude(utterance.turn, "answered", reply)
             return
         if paused is None:
-            meant = self._resuming.offer()
+            meant = self._resuming.offer() or self._rest_of_shape(utterance.text)
             reply = self._understanding.say("nothing_paused", utterance.text)
             self._act_on(utterance, meant or Interpretation("answered", reply, self._understanding.language))
             return
@@ -129,6 +132,13 @@ class Dispatch:
         self._emit(Interpreted(paused.turn, "offline", paused.plan_text, ""))
         self._emit(Interpreted(utterance.turn, "offline", "", reply))
         self._requests.conclude(utterance.turn, "answered", reply)
+
+    def _rest_of_shape(self, text: str) -> Interpretation | None:
+        """What `finish it` means where some sides of a shape were driven; None where none were."""
+        meant = (
+            self._understanding.interpret(text) if asks_for_rest(text, self._understanding.language) else None
+        )
+        return meant if meant is not None and meant.plan is not None else None
 
     def _begin_program(self, utterance: Utterance) -> None:
         if self._programs is None:
@@ -196,6 +206,7 @@ class Dispatch:
         self._emit(interpreted)
         if meant.outcome == "stop":
             self._stop(utterance.text[:80])
+            self._understanding.forget_held()
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
             if meant.obstacle:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.places import MapWays, Places
+from chatrobot.dialogue.places import MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
@@ -20,8 +20,8 @@ from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
 from chatrobot.language.phrases import describe_steps, render_reason, say
-from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -29,44 +29,7 @@ if TYPE_CHECKING:
     from chatrobot.dialogue.llm.terms import Ended
 
 
-MOVED = "cannot_undo_moved"
-ODOMETRY_ANEW = "cannot_undo_odometry_anew"
 UNMEASURED = "cannot_undo_unmeasured"
-
-
-class RestWatch:
-    """Watches whether the robot still stands where our last turn left it, and in the same odometry.
-
-    Each method returns why what was done before cannot be undone any more: a code, empty while it can.
-    """
-
-    def __init__(self) -> None:
-        self._rest: Pose | None = None
-        self._odometry_epoch: int | None = None
-
-    def hear(self, event: Telemetry, *, is_ours: bool) -> str:
-        """Compare where the robot is. `is_ours`: a turn of ours moves it, or may."""
-        before, self._odometry_epoch = self._odometry_epoch, event.odometry_epoch
-        if before is not None and before != event.odometry_epoch:
-            return ODOMETRY_ANEW
-        return "" if is_ours else self._displaced(event.pose)
-
-    def begin(self, finished: Finished) -> str:
-        """Compare where the robot was when the turn that has ended began."""
-        return self._displaced(finished.start)
-
-    def end(self, finished: Finished) -> str:
-        """Note where a turn has ended, and whether somebody else drives on."""
-        self._rest = finished.pose
-        handed_over = finished.reason is not None and finished.reason.code == "handed_over"
-        return MOVED if handed_over else ""
-
-    def _displaced(self, pose: Pose) -> str:
-        rest = self._rest
-        if rest is None:
-            return ""
-        off_rad = abs(pose.yaw_rad - rest.yaw_rad)
-        return MOVED if pose.distance_to(rest) > LAPSES_AFTER_M or off_rad > LAPSES_AFTER_RAD else ""
 
 
 class Instruction(NamedTuple):
@@ -260,7 +223,12 @@ class Understanding:
         outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
         self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
         pending = text if meant.outcome == "unclear" else ""
-        self._dialogue = replace(self._dialogue, pending=pending)
+        held = parse_plan(meant.proposal.plan_text) if meant.is_held and meant.proposal is not None else None
+        self._dialogue = replace(self._dialogue, pending="" if held else pending, held=held)
+
+    def forget_held(self) -> None:
+        """Let no plan wait for a `go` any more: a stop came."""
+        self._dialogue = replace(self._dialogue, held=None)
 
     def note_finished(
         self,
@@ -275,10 +243,10 @@ class Understanding:
         if outcome == "completed":
             self._learn(meant)
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
-        self._note_end(TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number), finished)
-        if rehearse_only and outcome == "completed":
-            return say(meant.language, "only_rehearsed")
-        return describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
+        told = describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
+        record = TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number, told=told)
+        self._note_end(record, finished)
+        return say(meant.language, "only_rehearsed") if rehearse_only and outcome == "completed" else told
 
     def describe(self, steps: Sequence[Step]) -> str:
         """Return steps in a few words."""
@@ -288,10 +256,9 @@ class Understanding:
         """Remember a turn that a model planned; return the reply, in the language of the order."""
         language = self.language_of(text)
         plan = plan_of(ended.steps) if not rehearse_only and ended.finished is not None else None
-        self._note_end(TurnRecord(text, ended.outcome, plan), ended.finished)
-        if rehearse_only and ended.outcome == "completed":
-            return say(language, "only_rehearsed")
-        return describe_model_end(ended, language)
+        told = describe_model_end(ended, language)
+        self._note_end(TurnRecord(text, ended.outcome, plan, told=told), ended.finished)
+        return say(language, "only_rehearsed") if rehearse_only and ended.outcome == "completed" else told
 
     def _learn(self, meant: Interpretation) -> None:
         dialogue = self._dialogue
@@ -313,7 +280,7 @@ class Understanding:
 
     def _note_end(self, record: TurnRecord, finished: Finished | None) -> None:
         """Enter a turn into the ledger; one that Motion has ended, as it was measured."""
-        self._dialogue = replace(self._dialogue, pending="")
+        self._dialogue = replace(self._dialogue, pending="", held=None)
         if finished is None:
             self._record(record)
             return

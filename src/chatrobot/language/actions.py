@@ -41,7 +41,8 @@ def _check_known(frame: Frame, state: State) -> None:
         raise Unclear("unknown_part", frame.text)
     turned = bool(state.steps) and isinstance(state.steps[-1], (Turn, Face)) and frame.has_extent
     told = frame.direction or frame.rot or "clock" in frame.q or turned  # `turn left, then 1 m that way`
-    if "there" in frame.flags and frame.verb not in STILL and not told:
+    back = frame.direction == "back" and not frame.has_extent  # `go back there`: to some place
+    if "there" in frame.flags and frame.verb not in STILL and (back or not told):
         raise Unclear("which_place", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)

@@ -185,7 +185,7 @@ def _step(step: Step, whole: Frame, factors: Factors, pace: Pace) -> Step:
         left = side == "left" if side else step.left != opposite
         angle_rad = step.angle_rad * factors.angle if step.angle_rad else None
         seconds = step.duration_s * factors.angle if step.duration_s else None
-        said = pace.rate(whole)
+        said = dataclasses.replace(pace, rate_radps=step.rate_radps or pace.rate_radps).rate(whole)
         return dataclasses.replace(
             step, angle_rad=angle_rad, duration_s=seconds, left=left, rate_radps=said or step.rate_radps
         )

@@ -104,7 +104,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if until is not None:
         return _until(until, reading)
     check_no_manner(atoms, language)
-    changed = _of_before(plain, atoms, reading)
+    changed = of_before(plain, atoms, reading)
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
         if is_change_alone(plain, language):
@@ -128,7 +128,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     return replace(plan, corrects=corrects)
 
 
-def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | None:
+def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | None:
     """What takes its steps from turns before: a part of them, the whole changed, or the same after a motion of its own.
 
     Raises:
@@ -163,7 +163,9 @@ def _of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | 
     if any(f.moves for f in own) and not (any(map(_refers, own)) or is_correction(dialogue.last_motion)):
         return [*before, *reading.steps_of_their_own(own)]
     changed = edited(atoms, dialogue)
-    if changed is None and any(a.value == "again" for a in atoms) and names_a_part(plain, language):
+    leaves_out = any(a.value in ("leave_out", "first", "swapped") for a in atoms)
+    again = any(a.value == "again" for a in atoms)
+    if again and not (changed is not None and leaves_out) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed
 

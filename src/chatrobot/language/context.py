@@ -22,7 +22,10 @@ class Place:
 
 @dataclass(frozen=True)
 class Dialogue:
-    """What was said before. `pending` is the text of the previous turn if that was asked back about."""
+    """What was said before. `pending` is the text of the previous turn if that was asked back about.
+
+    `held` is the plan that the previous turn left waiting for a `go`.
+    """
 
     turns: tuple[TurnRecord, ...] = ()
     places: Mapping[str, Place] = field(default_factory=dict)
@@ -31,6 +34,7 @@ class Dialogue:
     default_rate_radps: float | None = None
     start_pose: Pose = ORIGIN
     pending: str = ""
+    held: Plan | None = None
 
     @property
     def last_motion(self) -> TurnRecord | None:

@@ -20,6 +20,9 @@ from chatrobot.language.undo import NEAR_M, PACES, Walked, all_taken_back, last_
 from chatrobot.plan.steps import Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
+_COUNTED = frozenset({"both", "two", "three", "four", "five", "six", "2", "3", "4", "5", "6"})
+"""What counts the turns that are meant."""
+
 
 def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] | None:
     """The steps of an utterance that refers to an earlier one; None where it does not.
@@ -50,6 +53,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
+        _check_not_counted(whole, frames)
         if {"bit", "halfway"} & whole.flags and not is_chinese(whole.text):
             raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
         if whole.direction and whole.direction != "back":
@@ -61,13 +65,38 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     more = _more_of_before(whole, context, pace)
     if more is not None:
         return more
+    if "again" in whole.flags:
+        _check_not_counted(whole, frames)
     if {"again", "more"} <= whole.flags and any("another" in frame.texts for frame in frames):
         raise Unclear("unclear_motion", whole.text)  # `again, another 20 cm`: so much more, or only so much?
+    if _is_another_kind(whole, context):
+        return None
     if is_change(whole):
         if is_correction(context.dialogue.last_motion):
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(context.dialogue.last_motion), whole, pace)
     return None
+
+
+def _check_not_counted(whole: Frame, frames: Sequence[Frame]) -> None:
+    """`Back by both`, `all four again, faster`: more turns than the last one, and nobody reads which.
+
+    Raises:
+        Unclear: naming them.
+    """
+    counted = (text for frame in frames for text in frame.texts if text.split()[-1] in _COUNTED)
+    said = next(counted, "") if {"all", "both"} & whole.flags else ""
+    said = said or (whole.text if "all" in whole.flags and whole.direction else "")
+    if said:
+        raise Unclear("unclear_motion", said)
+
+
+def _is_another_kind(whole: Frame, context: Context) -> bool:
+    """`Again 50 cm forward`, after a turn: a motion of its own, told in full."""
+    last = context.dialogue.last_motion
+    turned = last is not None and last.plan is not None and all(isinstance(s, Turn) for s in last.plan.steps)
+    told = "length" in whole.q and whole.direction in ("forward", "back") and not whole.rot
+    return turned and told and "again" in whole.flags and not {"other_way", "more"} & whole.flags
 
 
 def _only_turned(context: Context) -> bool:

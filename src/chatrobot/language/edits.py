@@ -57,14 +57,14 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         edit.flags.discard("same_unit")
         units = (unit_driven_m(turn) for turn in reversed(dialogue.turns))
         unit_m = next((unit for unit in units if unit), 0.0)
-        edit.amounts = [_in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
         if edit.amount("number"):
             return None
     if "overshot" in edit.flags:
         if edit.way and edit.amount("number"):
             return None
         unit_m = said_unit_m(last.text) or 0.0
-        edit.amounts = [_in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
     return _applied(edit, steps)
 
 
@@ -76,7 +76,7 @@ def _came_from(steps: list[Step], side: str) -> bool:
     return step is not None and is_sideways(step) and _heads_left(step) != (side == "left")
 
 
-def _in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
+def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
     """`10 too many`: degrees after a turn, else the unit of the drive."""
     unit_m = unit_m if isinstance(step, Drive) else 0.0
     if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.core.geometry import Pose
@@ -11,6 +12,8 @@ from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
+RATE = "rate"
+"""The role of a bare number after `at`: how fast, and never how far."""
 _SLIDING = frozenset({"no_turn", "sideways"})
 _MOST_M, _LEAST_DEG = 2.0, 5.0
 """A bare number is so many metres at most, and so many degrees at least."""
@@ -91,7 +94,11 @@ def _the_same_to(frame: Frame, state: State) -> Frame:
 
 
 def _with_same_amount(frame: Frame, state: State) -> Frame:
-    if "same_amount" not in frame.flags or frame.has_extent:
+    there = {"forward": "back", "back": "forward"}.get(frame.direction, "")
+    and_back = (
+        "again" in frame.flags and bool(state.steps) and state.last == "drive" and state.direction == there
+    )
+    if not (and_back or "same_amount" in frame.flags) or frame.has_extent:  # `back 40 cm and forward again`
         return frame
     before = _amount_before(frame, state)
     if before is None:
@@ -116,6 +123,8 @@ def _with_computed_length(frame: Frame, state: State) -> Frame:
 def _with_unit(frame: Frame, state: State) -> Frame:
     """The frame's bare number with its unit, where only one unit can be meant."""
     number = frame.q["number"]
+    if number.role == RATE:
+        return frame
     if "转返" in frame.texts and state.last != "turn":
         raise Unclear("which_side", frame.text)
     if number.text == "一半" and not frame.has_extent:
@@ -209,3 +218,12 @@ def _means_degrees(frame: Frame, value: float) -> bool:
     turning = frame.turning or (not frame.verb and frame.direction in SIDES and not _SLIDING & frame.flags)
     spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
     return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
+
+
+def with_rates(atoms: Sequence[Atom]) -> list[Atom]:
+    """`To the right at 15`: a bare number after `at` is how fast, and no way or angle."""
+    before = ["", *(atom.text for atom in atoms)]
+    bare = [
+        text == "at" and (a.kind, a.value, a.role) == ("q", "number", "") for text, a in zip(before, atoms)
+    ]
+    return [a._replace(role=RATE) if is_bare else a for a, is_bare in zip(atoms, bare)]

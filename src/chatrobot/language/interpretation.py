@@ -48,6 +48,11 @@ class Interpretation:
     default_rate_radps: float | None = None
 
     @property
+    def is_held(self) -> bool:
+        """The plan that it proposes waits for a `go`, and was no guess; an answer in between leaves it waiting."""
+        return self.proposal is not None and (self.code == "held" or self.outcome == "answered")
+
+    @property
     def is_about_turn_before(self) -> bool:
         """It undoes, does again or puts right, so that the turn before must have ended."""
         return self.walk is not None or self.corrects

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from chatrobot import reflex
 from chatrobot.core.event import Proposal
-from chatrobot.language import forms, questions
+from chatrobot.language import questions
 from chatrobot.language.acts import (
     MAYBE_ORDER,
     ORDER,
@@ -26,26 +26,27 @@ from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
-from chatrobot.language.earlier_turns import answer_to_question, with_earlier_speed, with_earlier_unit
 from chatrobot.language.facing import without_compass
-from chatrobot.language.facts import told_of_units, with_known_counts, with_measured_things
+from chatrobot.language.facts import with_known_counts
 from chatrobot.language.glossed import in_known_words, read_glossed
+from chatrobot.language.held import answered, answered_late, changed, is_taken_back
+from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.likeliest import likeliest, proposed
+from chatrobot.language.likeliest import likeliest, offer, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
-from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.place_questions import answer_about_places
+from chatrobot.language.phrases import say
+from chatrobot.language.place_questions import answer_about_places, with_spoken_place
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
-from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
-from chatrobot.language.selections import speed_for_all, wants_part
+from chatrobot.language.selections import wants_part
+from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.starting import (
     mended_alone,
     not_ordered,
@@ -53,11 +54,11 @@ from chatrobot.language.starting import (
     without_call_sign,
     without_hold,
 )
-from chatrobot.language.tokens import SILENT, tokenise
+from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
-from chatrobot.plan.steps import Arc, Drive, Plan, Step, Wait
+from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -95,7 +96,8 @@ class OfflineInterpreter:
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
-        meant = self._meant(text, language, context)
+        text = with_spoken_place(text, language, context)
+        meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language) if offers else ""
         return asked_back(Unclear(reason, text), language) if reason else meant
@@ -152,7 +154,33 @@ class OfflineInterpreter:
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""
         rest = without_hold(normalise(text), language)
-        return proposed(self._ordered(rest, language, context), language, code="held") if rest else None
+        if not rest:
+            return None
+        meant = self._ordered(rest, language, context)
+        return proposed(meant, language, code="held") or (meant if meant.define else None)
+
+    def _of_held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
+        """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood."""
+        held, reading = context.dialogue.held, Reading(language, context, self._profile)
+        plain = rephrased(normalise(text), language)
+        if held is None:
+            return answered_late(plain, reading)
+        if is_taken_back(plain, language):
+            return Interpretation("answered", say(language, "offer_declined"), language)
+        own = replace(context, dialogue=replace(context.dialogue, pending="", held=None))
+        try:
+            meant = answered(plain, held.steps, reading)
+            steps = changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
+        except Unclear as problem:
+            return asked_back(problem, language)
+        if meant is None and steps is not None:
+            return proposed(planned(steps, language), language, code="held")
+        meant = meant or self._meant(text, language, own)
+        if meant.outcome == "answered":
+            return replace(meant, proposal=offer(held, language))
+        if meant.proposal is not None and not meant.is_held:  # no guess takes the place of what was to wait
+            return asked_back(Unclear("unknown_part", meant.unaccounted or text[:60]), language)
+        return meant
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.
@@ -169,6 +197,11 @@ class OfflineInterpreter:
         )
         if told is not None:
             return told
+        part = part_of_shape(
+            plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
+        )
+        if part is not None:
+            return planned(part, language)
         names = names_in(context)
         reads = read_acts(plain, names)
         talk = talk_in(reads)
@@ -193,6 +226,12 @@ class OfflineInterpreter:
         if meant.outcome != "plan" or read_twists(plain):
             return meant
         return self._surely_ordered(meant, plain, reads, language, context)
+
+    def _steps(self, text: str, language: LanguageCode, context: Context) -> list[Step]:
+        meant = self._ordered(text, language, context)
+        if meant.plan is None:
+            raise Unclear(meant.code or "unclear_motion", meant.unaccounted or text[:60])
+        return list(meant.plan.steps)
 
     def _surely_ordered(
         self,
@@ -244,7 +283,7 @@ class OfflineInterpreter:
         courtesy = questions.courtesy_of(plain, language)
         if courtesy:
             return Interpretation("answered", say(language, f"answer_{courtesy}"), language, code=courtesy)
-        return _in_words(plain, Reading(language, context, self._profile, facing_rad))
+        return read_in_words(plain, Reading(language, context, self._profile, facing_rad))
 
 
 def _moves(plan: Plan | None) -> list[Step]:
@@ -265,49 +304,6 @@ def _goes_on(line: str) -> bool:
     """`then stop`, 然后停."""
     beginnings = (tokenise(said, lexicon(), {}) for said in (line, line.split()[0]))
     return any(atoms[0].kind == "conn" or atoms[0].value == "finally" for atoms in beginnings if atoms)
-
-
-def _in_words(plain: str, reading: Reading) -> Interpretation:
-    """What is neither numbers alone nor a stop: a definition, a place, an answer, a unit, else a command."""
-    plain = with_measured_things(plain)
-    definition = forms.read_definition(plain, reading.language)
-    if definition is not None:
-        return _defined(definition, reading)
-    answered = read_remembering(plain, reading) or answer_to_question(plain, reading)
-    if answered is not None:
-        return answered
-    told = told_of_units(plain)
-    if told is not None:
-        return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
-    plain = with_earlier_unit(with_earlier_speed(plain, reading), reading)
-    return _at_one_speed(plain, reading) or read_command(plain, reading)
-
-
-def _at_one_speed(plain: str, reading: Reading) -> Interpretation | None:
-    """速度0.15，左平移一米，右平移一米: the speed holds for all of them; None where one drive is told, or no speed."""
-    told = speed_for_all(plain, reading.language)
-    if told is None:
-        return None
-    said = told[0] if "秒" in told[0] or "/s" in told[0] else f"{told[0]}米每秒"
-    speeds = [atom for atom in reading.atoms(said) if atom.kind not in SILENT]
-    meant = read_command(told[1], reading)
-    steps = meant.plan.steps if meant.plan is not None else ()
-    drives = [step for step in steps if isinstance(step, (Drive, Arc))]
-    if len(drives) < 2 or [atom.value for atom in speeds] != ["speed"]:
-        return None
-    if any(step.speed_mps for step in drives):
-        raise Unclear("unclear_motion", told[0])
-    at_speed = [replace(s, speed_mps=speeds[0].number) if s in drives else s for s in steps]
-    return replace(meant, plan=Plan(tuple(at_speed)))
-
-
-def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
-    inner = read_command(definition.body, reading)
-    if inner.plan is None:
-        return inner
-    language = reading.language
-    reply = say(language, "defined", name=definition.name, text=describe_plan(inner.plan, language))
-    return Interpretation("answered", reply, language, define={definition.name: inner.plan})
 
 
 def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretation | None:

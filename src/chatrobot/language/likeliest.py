@@ -22,6 +22,7 @@ from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
 
 TALK, APART = 1.5, 3.0
@@ -124,11 +125,15 @@ def proposed(
     """The question whether that is meant; None where there is nothing to do."""
     if found.plan is None:
         return None
-    ask = say(language, code, text=describe_plan(found.plan, language))
+    asked = offer(found.plan, language, code=code)
     named = max(left_out, key=len, default="")
-    reply = f"{say(language, 'left_out', part=named)} {ask}" if named else ask
-    offer = Proposal(format_plan(found.plan), ask)
-    return Interpretation("unclear", reply, language, unaccounted=named, code=code, proposal=offer)
+    reply = f"{say(language, 'left_out', part=named)} {asked.say}" if named else asked.say
+    return Interpretation("unclear", reply, language, unaccounted=named, code=code, proposal=asked)
+
+
+def offer(plan: Plan, language: LanguageCode, *, code: str = "held") -> Proposal:
+    """A plan, and the question whether it is to be driven."""
+    return Proposal(format_plan(plan), say(language, code, text=describe_plan(plan, language)))
 
 
 def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
@@ -173,7 +178,9 @@ def _with_unit(
 ) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far; a number alone in the unit used before."""
     at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
-    if len(at) != 1 or not _DECIMAL.fullmatch(number):
+    if (
+        len(at) != 1 or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at ")
+    ):  # `back at 20`: how fast
         return None
     moving = (sign for clause in clauses_of(plain) for sign in clause.signs if sign.moves)
     if unit in ("", "m") or (unit == _DEG and any(sign.label not in _ALONE for sign in moving)):

@@ -113,6 +113,25 @@ def _spoken_of(language: str, context: Context) -> str:
     return ""
 
 
+def with_spoken_place(plain: str, language: str, context: Context) -> str:
+    """`Take me there`, after a turn about one place: with its name. Any other text as it is."""
+    found = re.search(load_table(language, "places_asked").get("there", "(?!)"), plain)
+    place = _last_spoken_of(language, context) if found is not None else ""
+    return f"{found['before']}go to the {place}{found['after']}" if found is not None and place else plain
+
+
+def _last_spoken_of(language: str, context: Context) -> str:
+    """The one place that the turns since the last motion named last; an empty string for none, or several."""
+    known, start = _known(context, language), load_table(language, "places_asked")["start"]
+    for turn in reversed(context.dialogue.turns):
+        said = _plain(turn.text)
+        named = [name for name in known if re.search(rf"(?<![a-z]){re.escape(name)}(?![a-z])", said)]
+        if named or turn.plan is not None:
+            name = max(named, key=len, default="")
+            return "" if len({known[n].name for n in named}) > 1 else "start" if name in start else name
+    return ""
+
+
 def _plain(name: str) -> str:
     return normalise(name).casefold().strip()
 

@@ -159,6 +159,12 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         if last is None or last.duration_s is None:
             return say(language, "answer_duration_unknown")
         values["duration_s"] = last.duration_s
+    if topic in ("done", "done_before"):
+        done = [turn for turn in context.dialogue.turns if turn.plan is not None and turn.told]
+        back = 2 if topic == "done_before" else 1
+        if len(done) < back:
+            return say(language, "answer_nothing_done")
+        return say(language, "answer_done", last=done[-back].text, told=done[-back].told)
     if topic == "moving":
         return say(language, "answer_moving" if state.moving else "answer_standing", **values)
     return say(language, f"answer_{topic}", **values)

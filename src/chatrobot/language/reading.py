@@ -15,6 +15,7 @@ from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context
 from chatrobot.language.corrections import corrected, with_slips, without_negated
 from chatrobot.language.dialogue import refer, walked
+from chatrobot.language.ellipsis import with_rates
 from chatrobot.language.facts import with_defined_units, with_words_counted
 from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import LanguageCode
@@ -73,7 +74,7 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = around_places(tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear))
-        atoms = without_restated(in_shares(with_multiples(with_slips(read_quantities(atoms)))))
+        atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(read_quantities(atoms))))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work

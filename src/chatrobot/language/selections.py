@@ -20,6 +20,7 @@ from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import once_of
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _KINDS: dict[str, tuple[type[Step], ...]] = {
@@ -63,7 +64,10 @@ def selected(
         first = at - 1 if at > 0 else len(units) + at - (count - 1 if at == -1 else 0)
         chosen = units[first : first + count] if 0 <= first <= len(units) - count else []
     else:
-        chosen = units if said.get("all") or len(units) == count else []
+        every = said.get("all") or (
+            not said.get("count") and said.get("kind", "") in table.get("plurals", {})
+        )
+        chosen = units if every or len(units) == count else []
     if not chosen:
         raise Unclear("nothing_before", plain)
     times = whole_number(counts[0].number, counts[0].text) if counts else 1
@@ -89,8 +93,8 @@ def part_of_before(
 
 def wants_part(plain: str, language: str) -> bool:
     """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
-    names = ("without", "without_nth", "resized", "listed", "further")
-    return any(form.fullmatch(plain) for name in names for form in _forms(language, name))
+    names = ("forms", "without", "without_nth", "resized", "listed", "further")
+    return any(form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name))
 
 
 def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
@@ -106,8 +110,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         return None
     table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
     named = said.get("kind", "")
-    kind = next((kind for kind, words in table["kinds"].items() if named in words), "step")
-    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    at = [i for i, step in enumerate(steps) if isinstance(step, step_kinds(named, language))]
     nth = _number(said, "nth", table)
     if nth:
         at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
@@ -180,12 +183,13 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "listed"))), None)
     if last is None or last.plan is None or found is None:
         return None
-    table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
+    table, said = load_table(language, "selections"), found.groupdict(default="")
+    units = _units(dialogue, "step")
     at = [_number({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
-    at = [n + len(steps) + 1 if n < 0 else n for n in at]
-    if not all(1 <= n <= len(steps) for n in at) or len(steps) < 2:
+    at = [n + len(units) + 1 if n < 0 else n for n in at]
+    if not all(1 <= n <= len(units) for n in at) or len(units) < 2:
         raise Unclear("nothing_before", plain)
-    return [steps[n - 1] for n in at]
+    return [step for n in at for step in units[n - 1]]
 
 
 def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
@@ -194,8 +198,10 @@ def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
     Raises:
         Unclear: nobody can tell what that is, or how much.
     """
-    words = load_table(language, "selections").get("spoken_of", ())
-    if dialogue.last_motion is not None and any(form.search(plain) for form in _forms(language, "up_to")):
+    table = load_table(language, "selections")
+    words = table.get("spoken_of", ())
+    is_up_to = any(form.search(plain) for form in _forms(language, "up_to"))
+    if (dialogue.last_motion is not None and is_up_to) or plain.strip(" .!") in table.get("pointing", ()):
         raise Unclear("unclear_motion", plain[:60])
     last = dialogue.turns[-1] if dialogue.turns else None
     if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
@@ -212,7 +218,7 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     if last is None or last.plan is None or found is None:
         return None
     steps = list(last.plan.steps)
-    once = next(n for n in range(1, len(steps) + 1) if steps == steps[:n] * (len(steps) // n))
+    once = once_of(steps)
     count = _number(found.groupdict(default=""), "count", load_table(language, "selections")) or 1
     return steps[:once] * count if once < len(steps) else None
 
@@ -223,6 +229,12 @@ def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
     return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
+
+
+def step_kinds(named: str, language: str) -> tuple[type[Step], ...]:
+    """The kinds of steps that a word like `turns` or `leg` names; all of them for any other."""
+    kinds = load_table(language, "selections")["kinds"].items()
+    return _KINDS[next((kind for kind, words in kinds if named in words), "step")]
 
 
 def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.typos import correct
@@ -33,7 +33,9 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
 def without_hold(plain: str, language: str) -> str:
     """A normalised text without what holds it back; an empty string where nothing does."""
     rest = _pattern(language, "held").sub("", plain)
-    return rest.strip(" ,.;:!") if rest != plain else ""
+    if rest == plain:
+        rest = _pattern(language, "held_opening").sub("", plain)
+    return _pattern(language, "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
 
 
 def without_call_sign(plain: str, language: str) -> str:
@@ -69,7 +71,8 @@ def not_ordered(plain: str, language: str) -> str:
 
 @cache
 def _pattern(language: str, name: str) -> re.Pattern[str]:
-    return re.compile(load_table(language, "starting").get(name, "(?!)"))
+    table = load_table(language, "starting")
+    return re.compile(in_full(table.get(name, "(?!)"), table.get("parts", {})))
 
 
 def _is_bare(frame: Frame) -> bool:

@@ -71,7 +71,12 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     ):
         raise Unclear("unclear_motion", whole.text)
     turns: int | list[Step] = int(count)
+    if "last_part" in whole.flags:  # of several steps one is taken back
+        turns = [step for entry in context.dialogue.ledger.done for step in entry.way or ()][-1:]
+        turns = 1 if len(context.dialogue.ledger.undoes(1).way or ()) == 1 else turns
     few = 1 == len(context.dialogue.ledger.done) < count
+    if "one_round" in whole.flags:
+        turns = _one_round(context, whole.text)
     if "last_step" in whole.flags or (counts and counts[0].role == "step") or few:
         turns = _last_steps(int(count), context, whole.text)
     if not isinstance(turns, int):
@@ -153,6 +158,24 @@ def _leading_to(target: Pose, way: Way, here: Pose, profile: RobotProfile) -> tu
     is_near = off_m <= NEAR_M and off_rad <= NEAR_RAD
     # A base that steers would drive a whole circle for a centimetre aside.
     return way if is_near or not profile.can_turn_on_the_spot else (*way, go)
+
+
+def _one_round(context: Context, said: str) -> list[Step]:
+    """`Undo one of those`: what the last motion did several times, once.
+
+    Raises:
+        Unclear: it did nothing several times.
+    """
+    steps = list(context.dialogue.ledger.undoes(1).way or ())
+    once = once_of(steps) if steps else 0
+    if once == len(steps):
+        raise Unclear("unclear_motion", said)
+    return steps[len(steps) - once :]
+
+
+def once_of(steps: list[Step]) -> int:
+    """How many of the steps come before they begin anew; all of them where they do not."""
+    return next(n for n in range(1, len(steps) + 1) if steps == steps[:n] * (len(steps) // n))
 
 
 def _last_steps(count: int, context: Context, said: str) -> int | list[Step]:

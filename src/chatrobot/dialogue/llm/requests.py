@@ -157,7 +157,7 @@ class ModelRequests:
         """Tell whether a model is to be asked: what is understood offline is not its business, nor what was refused."""
         if self._model_setup is None or meant.outcome in ("refused", "stop") or not text.strip():
             return False
-        if self._interpreter == "model" or meant.outcome == "unclear":
+        if self._interpreter == "model" or (meant.outcome == "unclear" and not meant.is_held):
             return True
         if meant.outcome == "answered" and self._surroundings.camera is not None and asks_to_see(text):
             return True  # the lidar answers such a question only as long as nobody has eyes

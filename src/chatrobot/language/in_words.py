@@ -1,0 +1,65 @@
+"""A text that is neither numbers alone nor a stop: a definition, a place, an answer, a unit, else a command."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from chatrobot.language import forms
+from chatrobot.language.command import read_command
+from chatrobot.language.earlier_turns import answer_to_question, with_earlier_speed, with_earlier_unit
+from chatrobot.language.facts import told_of_units, with_measured_things
+from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.reading import Reading
+from chatrobot.language.remembering import read_remembering
+from chatrobot.language.selections import speed_for_all
+from chatrobot.language.tokens import SILENT
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Plan
+
+
+def read_in_words(plain: str, reading: Reading) -> Interpretation:
+    """What is neither numbers alone nor a stop: a definition, a place, an answer, a unit, else a command.
+
+    Raises:
+        Unclear: where none of them is understood.
+    """
+    plain = with_measured_things(plain)
+    definition = forms.read_definition(plain, reading.language)
+    if definition is not None:
+        return _defined(definition, reading)
+    answered = read_remembering(plain, reading) or answer_to_question(plain, reading)
+    if answered is not None:
+        return answered
+    told = told_of_units(plain)
+    if told is not None:
+        return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
+    plain = with_earlier_unit(with_earlier_speed(plain, reading), reading)
+    return _at_one_speed(plain, reading) or read_command(plain, reading)
+
+
+def _at_one_speed(plain: str, reading: Reading) -> Interpretation | None:
+    """速度0.15，左平移一米，右平移一米: the speed holds for all of them; None where one drive is told, or no speed."""
+    told = speed_for_all(plain, reading.language)
+    if told is None:
+        return None
+    said = told[0] if "秒" in told[0] or "/s" in told[0] else f"{told[0]}米每秒"
+    speeds = [atom for atom in reading.atoms(said) if atom.kind not in SILENT]
+    meant = read_command(told[1], reading)
+    steps = meant.plan.steps if meant.plan is not None else ()
+    drives = [step for step in steps if isinstance(step, (Drive, Arc))]
+    if len(drives) < 2 or [atom.value for atom in speeds] != ["speed"]:
+        return None
+    if any(step.speed_mps for step in drives):
+        raise Unclear("unclear_motion", told[0])
+    at_speed = [replace(s, speed_mps=speeds[0].number) if s in drives else s for s in steps]
+    return replace(meant, plan=Plan(tuple(at_speed)))
+
+
+def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
+    inner = read_command(definition.body, reading)
+    if inner.plan is None:
+        return inner
+    language = reading.language
+    reply = say(language, "defined", name=definition.name, text=describe_plan(inner.plan, language))
+    return Interpretation("answered", reply, language, define={definition.name: inner.plan})
