@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,6 +12,7 @@ from chatrobot.language.joining import joined_frame
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
+_ALL_AGAIN = ("重复", "反复", "do that", "do this", "do it", "do so", "repeat")
 _STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
 
 
@@ -130,7 +132,7 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
-        if _repeats_all(atom, atoms[i + 1 :], current):
+        if _repeats_all(atom, atoms[i + 1 :], current) or _counts_run(atom, atoms[i + 1 :], frames, current):
             frames.append(current)
             current = Frame(joined="weak")
         if not current.add(atom):
@@ -156,10 +158,25 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
 
 
 def _repeats_all(atom: Atom, rest: list[Atom], current: Frame) -> bool:
-    """…左转九十度重复四遍: all that was said before, not the last part alone."""
-    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(("重复", "反复"))
+    """`… turn left 90 repeat that 4 times`, …左转九十度重复四遍: all that was said before, not the last part alone."""
+    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(_ALL_AGAIN)
     counted = bool(rest) and rest[0].kind == "q" and rest[0].value == "times"
     return again and counted and len(rest) == 1 and current.moves and current.has_extent
+
+
+def _counts_run(atom: Atom, rest: list[Atom], frames: list[Frame], current: Frame) -> bool:
+    """`forward 1 m turn left 90 4x`: motions that nothing parts are counted together.
+
+    Full turns may be counted alone: `forward 1 m spin 360 twice`.
+    """
+    counted = (atom.kind, atom.value) == ("q", "times") and all(a.kind in ("filler", "glue") for a in rest)
+    run = [*frames, current]
+    if not counted or not frames or any("times" in f.q or f.shape for f in run) or "turns" in current.q:
+        return False
+    told = all(f.moves and (f.has_extent or "number" in f.q) for f in run)
+    bare, angle = current.q.get("number"), current.q.get("angle")
+    turned_deg = bare.number if bare else math.degrees(angle.number) if angle else 1.0
+    return told and abs(math.remainder(turned_deg, 360.0)) > 1e-6
 
 
 def _is_bare_direction(frame: Frame) -> bool:
