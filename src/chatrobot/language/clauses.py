@@ -43,7 +43,7 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
             frames.extend(segment.frames)  # 前进，前进，再前进，每次半米: they are counted, not urged
         else:
             _join(frames, segment)
-    frames = _marked_ends(frames)
+    frames = _counted_pairs(_marked_ends(frames))
     loose = next((frame for frame in frames if _hangs_loose(frame)), None)
     if loose is not None and not drawing:
         raise Unclear("unclear_motion", loose.text)
@@ -73,6 +73,22 @@ def _said_again(last: Frame, first: Frame) -> bool:
     return (
         bool(way) and _motion(last) == _motion(first) and not (last.has_extent or last.shape or first.shape)
     )
+
+
+def _counted_pairs(frames: list[Frame]) -> list[Frame]:
+    """`forward 1 m and back 1 m three times`: one way and the other are counted together."""
+    if len(frames) < 2 or "times" not in frames[1].q or "times" in frames[0].q:
+        return frames
+    out, back = frames[0], frames[1].copy()
+    ways = {out.direction, "back" if back.verb == "return" and not back.direction else back.direction}
+    told = out.has_extent and back.has_extent and not (out.shape or back.shape or out.place or back.place)
+    if not told or ways not in ({"forward", "back"}, {"left", "right"}) or back.joined == "strong":
+        return frames
+    far = [{name: frame.q[name].number for name in EXTENTS if name in frame.q} for frame in (out, back)]
+    if back.joined not in ("and", "none") and far[0] != far[1]:
+        return frames  # `forward 1.5 m, then back 50 cm three times`
+    count = Frame(joined="weak", q={"times": back.q.pop("times")})
+    return [out, back, count, *frames[2:]]
 
 
 def _marked_ends(frames: list[Frame]) -> list[Frame]:
@@ -132,7 +148,12 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
-        if _repeats_all(atom, atoms[i + 1 :], current) or _counts_run(atom, atoms[i + 1 :], frames, current):
+        rest = atoms[i + 1 :]
+        if (
+            _repeats_all(atom, rest, current)
+            or _counts_run(atom, rest, frames, current)
+            or _pauses_between(atom, rest, current)
+        ):
             frames.append(current)
             current = Frame(joined="weak")
         if not current.add(atom):
@@ -177,6 +198,13 @@ def _counts_run(atom: Atom, rest: list[Atom], frames: list[Frame], current: Fram
     bare, angle = current.q.get("number"), current.q.get("angle")
     turned_deg = bare.number if bare else math.degrees(angle.number) if angle else 1.0
     return told and abs(math.remainder(turned_deg, 360.0)) > 1e-6
+
+
+def _pauses_between(atom: Atom, rest: list[Atom], current: Frame) -> bool:
+    """`… three times with a second in between`: the pause is no part of what is counted."""
+    pauses = (atom.kind, atom.value) in (("verb", "wait"), ("q", "time"))
+    between = any(a.kind == "flag" and a.value in ("between", "after_each") for a in rest)
+    return pauses and between and "times" in current.q
 
 
 def _is_bare_direction(frame: Frame) -> bool:

@@ -284,5 +284,5 @@ def _interlude(script: Script, frames: list[Frame], i: int) -> int | None:
         frame.flags.add("after_each")
     elif not frame.flags & {"between", "after_each"}:
         return None
-    insert(script, frame)
+    insert(script, frame, counted=i > 0 and is_times_only(frames[i - 1]))
     return i + 1
