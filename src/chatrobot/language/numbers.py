@@ -136,7 +136,8 @@ def _plain(atoms: Atoms, i: int) -> Number | None:
     while i < len(atoms):
         atom = atoms[i]
         if atom.kind == "number":
-            joined = _joined(current, atom, float(atom.value))
+            written = current is not None and atoms[i - 1].text[-1:].isdigit()  # `a 360 five times`
+            joined = None if written and atom.text.isalpha() else _joined(current, atom, float(atom.value))
             if joined is None:
                 break
             after_zero = after_zero or (current is None and float(atom.value) == 0 and scale > 0)
