@@ -64,7 +64,8 @@ def _with_fraction(atoms: Atoms, number: Number) -> Number:
     if is_kind(atoms, end, "fraction") and value == int(value if math.isfinite(value) else 0):
         parts = float(atoms[end].value)
         if parts == 2 and value not in (1.0, 0.0):
-            if is_kind(atoms, end + 1, "unit_turn") and atoms[end].text == "half":
+            turns = is_kind(atoms, end + 1, "verb", "turn") and atoms[end + 1].text.endswith("s")
+            if turns and atoms[end].text == "half":
                 return Number(value * 0.5, end + 1)  # `three half turns`
             return Number(value + 0.5, end + 1) if atoms[end].text == "half" else number
         return Number(value / parts, end + 1)
