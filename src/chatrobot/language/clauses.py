@@ -76,19 +76,44 @@ def _said_again(last: Frame, first: Frame) -> bool:
 
 
 def _counted_pairs(frames: list[Frame]) -> list[Frame]:
-    """`forward 1 m and back 1 m three times`: one way and the other are counted together."""
+    """`forward 1 m and back 1 m three times`, `… and turn left 90 degrees three times`: both are counted.
+
+    Raises:
+        Unclear: for a turn without an angle, which may be counted alone.
+    """
     if len(frames) < 2 or "times" not in frames[1].q or "times" in frames[0].q:
         return frames
-    out, back = frames[0], frames[1].copy()
-    ways = {out.direction, "back" if back.verb == "return" and not back.direction else back.direction}
-    told = out.has_extent and back.has_extent and not (out.shape or back.shape or out.place or back.place)
-    if not told or ways not in ({"forward", "back"}, {"left", "right"}) or back.joined == "strong":
+    first, second = frames[0], frames[1].copy()
+    plain = not (first.shape or second.shape or first.place or second.place)
+    if not plain or not first.has_extent or second.joined == "strong":
         return frames
+    side = second.verb == "turn" and second.sided and not second.flags and first.verb not in TURN
+    if side and second.joined == "and" and not second.has_extent and "number" not in second.q:
+        raise Unclear("unclear_motion", second.text)
+    pause = second.verb == "wait" and "time" in second.q and not second.flags
+    together = second.joined == "and" and (pause or (side and _is_corner(second)))
+    if not (together or _is_way_and_back(first, second)):
+        return frames
+    count = Frame(joined="weak", q={"times": second.q.pop("times")})
+    return [first, second, count, *frames[2:]]
+
+
+def _is_corner(turn: Frame) -> bool:
+    """Whether it turns, and not all the way round."""
+    said = turn.q.get("angle") or turn.q.get("number")
+    return said is not None and said.number not in (360.0, 720.0) and not _is_round(said.number)
+
+
+def _is_round(angle_rad: float) -> bool:
+    return abs(math.remainder(angle_rad, 2 * math.pi)) < 1e-6
+
+
+def _is_way_and_back(out: Frame, back: Frame) -> bool:
+    """Opposite ways; as far, too, after a comma or `then`: not `forward 1.5 m, then back 50 cm three times`."""
+    ways = {out.direction, "back" if back.verb == "return" and not back.direction else back.direction}
     far = [{name: frame.q[name].number for name in EXTENTS if name in frame.q} for frame in (out, back)]
-    if back.joined not in ("and", "none") and far[0] != far[1]:
-        return frames  # `forward 1.5 m, then back 50 cm three times`
-    count = Frame(joined="weak", q={"times": back.q.pop("times")})
-    return [out, back, count, *frames[2:]]
+    opposite = ways in ({"forward", "back"}, {"left", "right"}) and all(far)
+    return opposite and (back.joined in ("and", "none") or far[0] == far[1])
 
 
 def _marked_ends(frames: list[Frame]) -> list[Frame]:
@@ -194,10 +219,9 @@ def _counts_run(atom: Atom, rest: list[Atom], frames: list[Frame], current: Fram
     run = [*frames, current]
     if not counted or not frames or any("times" in f.q or f.shape for f in run) or "turns" in current.q:
         return False
-    told = all(f.moves and (f.has_extent or "number" in f.q) for f in run)
-    bare, angle = current.q.get("number"), current.q.get("angle")
-    turned_deg = bare.number if bare else math.degrees(angle.number) if angle else 1.0
-    return told and abs(math.remainder(turned_deg, 360.0)) > 1e-6
+    return all(f.moves and (f.has_extent or "number" in f.q) for f in run) and (
+        current.verb not in TURN or _is_corner(current)
+    )
 
 
 def _pauses_between(atom: Atom, rest: list[Atom], current: Frame) -> bool:

@@ -77,7 +77,9 @@ def insert(script: Script, frame: Frame, *, counted: bool = False) -> None:
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
     pause = all(isinstance(s, (Wait, Say)) for s in steps)
-    if "between" in frame.flags and (_PASSES & {text[:2] for text in frame.texts} or _parts_passes(frame, counted)):
+    if "between" in frame.flags and (
+        _PASSES & {text[:2] for text in frame.texts} or _parts_passes(frame, counted)
+    ):
         moving = _passes(moving)
     units: list[list[Step]] = []
     for k, unit in enumerate(moving):
