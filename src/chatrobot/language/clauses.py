@@ -165,7 +165,7 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
     atoms = [*bearing, *[a for a in atoms if a not in bearing]]
     curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
     if curve is not None and not any(a.kind == "shape" for a in atoms):
-        atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
+        atoms = [curve, *[a for a in atoms if a is not curve and a.value not in ("go", "shift")]]
     frames: list[Frame] = []
     current = Frame()
     for i, atom in enumerate(atoms):
