@@ -198,6 +198,8 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
             current = Frame(joined="none")
             if not current.add(atom):
                 raise Unclear("unknown_part", atom.text)
+    if frames and "times" in current.q and "each" in current.flags and "each" not in frames[-1].flags:
+        raise Unclear("unclear_motion", current.text)  # `spin left spin right 3 times each`
     if not current.is_empty:
         frames.append(current)
     return frames

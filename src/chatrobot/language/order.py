@@ -18,6 +18,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     if at is None:
         return list(atoms)
     word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
+    before = [a for a in head if a.kind not in ("filler", "glue", "sep")]
+    if before[1:] and (before[-1].kind, before[-1].value) == ("conn", "then"):
+        return [*head, *in_order(atoms[at:])]  # `turn right and then, after waiting 3 s, go 1 m`
     leads = not any(a.kind in _CONTENT for a in head)
     if word.value == "after" and not leads and any(a.kind == "flag" and a.value == "first" for a in head):
         return in_order([*head, _THEN, *tail])  # `first …, after you …`: as said
