@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 997, "en": 149, "de": 36}
+LEAST_CORRECT = {"zh": 997, "en": 153, "de": 36}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:

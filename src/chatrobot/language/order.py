@@ -48,7 +48,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return [*second[:end], _THEN, *first, *second[end:]]
     if word.value == "after":
         end = _ends_at(tail, at_then=True)
-        return [*tail[:end], _THEN, *head, *tail[end:]]
+        thens = [i + 1 for i, a in enumerate(head) if (a.kind, a.value) == ("conn", "then")]
+        cut = thens[-1] if thens else 0  # `go 1 m, then turn left after waiting 3 s`
+        return [*head[:cut], *tail[:end], _THEN, *head[cut:], *tail[end:]]
     return [*head, _THEN, *tail]
 
 
