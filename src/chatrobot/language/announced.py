@@ -20,6 +20,8 @@ def with_announced(atoms: Sequence[Atom]) -> list[Atom]:
     at = next((i for i, a in enumerate(atoms) if a.kind not in _LIGHT and not _announces(a)), len(atoms))
     lead, rest = atoms[:at], atoms[at + 1 :]
     counted = is_kind(atoms, at, "q", "times") and any(_announces(a) for a in lead)
+    if counted and rest and _announces(rest[0]):  # `repeat twice the sequence of 1 m forward and …`
+        rest = rest[1 + is_kind(rest, 1, "num", "of") :]
     if not counted or not rest or rest[0].kind not in _BEGINS:
         return list(atoms)
     if sum(a.kind == "q" for a in rest) < 2:

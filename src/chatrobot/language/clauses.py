@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,6 +12,7 @@ from chatrobot.language.joining import joined_frame
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
+_ALL_AGAIN = ("重复", "反复", "do that", "do this", "do it", "do so", "repeat")
 _STRENGTH = {"start": 0, "and": 1, "weak": 2, "colon": 3, "strong": 4, "then": 5}
 
 
@@ -41,7 +43,7 @@ def read_frames(atoms: Sequence[Atom]) -> list[Frame]:
             frames.extend(segment.frames)  # 前进，前进，再前进，每次半米: they are counted, not urged
         else:
             _join(frames, segment)
-    frames = _marked_ends(frames)
+    frames = _counted_pairs(_marked_ends(frames))
     loose = next((frame for frame in frames if _hangs_loose(frame)), None)
     if loose is not None and not drawing:
         raise Unclear("unclear_motion", loose.text)
@@ -71,6 +73,47 @@ def _said_again(last: Frame, first: Frame) -> bool:
     return (
         bool(way) and _motion(last) == _motion(first) and not (last.has_extent or last.shape or first.shape)
     )
+
+
+def _counted_pairs(frames: list[Frame]) -> list[Frame]:
+    """`forward 1 m and back 1 m three times`, `… and turn left 90 degrees three times`: both are counted.
+
+    Raises:
+        Unclear: for a turn without an angle, which may be counted alone.
+    """
+    if len(frames) < 2 or "times" not in frames[1].q or "times" in frames[0].q:
+        return frames
+    first, second = frames[0], frames[1].copy()
+    plain = not (first.shape or second.shape or first.place or second.place)
+    if not plain or not first.has_extent or second.joined == "strong":
+        return frames
+    side = second.verb == "turn" and second.sided and not second.flags and first.verb not in TURN
+    if side and second.joined == "and" and not second.has_extent and "number" not in second.q:
+        raise Unclear("unclear_motion", second.text)
+    pause = second.verb == "wait" and "time" in second.q and not second.flags
+    together = second.joined == "and" and (pause or (side and _is_corner(second)))
+    if not (together or _is_way_and_back(first, second)):
+        return frames
+    count = Frame(joined="weak", q={"times": second.q.pop("times")})
+    return [first, second, count, *frames[2:]]
+
+
+def _is_corner(turn: Frame) -> bool:
+    """Whether it turns, and not all the way round."""
+    said = turn.q.get("angle") or turn.q.get("number")
+    return said is not None and said.number not in (360.0, 720.0) and not _is_round(said.number)
+
+
+def _is_round(angle_rad: float) -> bool:
+    return abs(math.remainder(angle_rad, 2 * math.pi)) < 1e-6
+
+
+def _is_way_and_back(out: Frame, back: Frame) -> bool:
+    """Opposite ways; as far, too, after a comma or `then`: not `forward 1.5 m, then back 50 cm three times`."""
+    ways = {out.direction, "back" if back.verb == "return" and not back.direction else back.direction}
+    far = [{name: frame.q[name].number for name in EXTENTS if name in frame.q} for frame in (out, back)]
+    opposite = ways in ({"forward", "back"}, {"left", "right"}) and all(far)
+    return opposite and (back.joined in ("and", "none") or far[0] == far[1])
 
 
 def _marked_ends(frames: list[Frame]) -> list[Frame]:
@@ -122,7 +165,7 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
     atoms = [*bearing, *[a for a in atoms if a not in bearing]]
     curve = next((a for a in atoms if a.kind == "verb" and a.value == "curve"), None)
     if curve is not None and not any(a.kind == "shape" for a in atoms):
-        atoms = [curve, *[a for a in atoms if a is not curve and a.value != "go"]]
+        atoms = [curve, *[a for a in atoms if a is not curve and a.value not in ("go", "shift")]]
     frames: list[Frame] = []
     current = Frame()
     for i, atom in enumerate(atoms):
@@ -130,7 +173,12 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
             continue
         if atom.kind not in SLOTTED:
             raise Unclear("unknown_part", _around(atoms, i))
-        if _repeats_all(atom, atoms[i + 1 :], current):
+        rest = atoms[i + 1 :]
+        if (
+            _repeats_all(atom, rest, current)
+            or _counts_run(atom, rest, frames, current)
+            or _pauses_between(atom, rest, current)
+        ):
             frames.append(current)
             current = Frame(joined="weak")
         if not current.add(atom):
@@ -150,16 +198,39 @@ def _split(atoms: list[Atom], drawing: bool = False) -> list[Frame]:
             current = Frame(joined="none")
             if not current.add(atom):
                 raise Unclear("unknown_part", atom.text)
+    if frames and "times" in current.q and "each" in current.flags and "each" not in frames[-1].flags:
+        raise Unclear("unclear_motion", current.text)  # `spin left spin right 3 times each`
     if not current.is_empty:
         frames.append(current)
     return frames
 
 
 def _repeats_all(atom: Atom, rest: list[Atom], current: Frame) -> bool:
-    """…左转九十度重复四遍: all that was said before, not the last part alone."""
-    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(("重复", "反复"))
+    """`… turn left 90 repeat that 4 times`, …左转九十度重复四遍: all that was said before, not the last part alone."""
+    again = atom.kind == "flag" and atom.value == "again" and atom.text.startswith(_ALL_AGAIN)
     counted = bool(rest) and rest[0].kind == "q" and rest[0].value == "times"
     return again and counted and len(rest) == 1 and current.moves and current.has_extent
+
+
+def _counts_run(atom: Atom, rest: list[Atom], frames: list[Frame], current: Frame) -> bool:
+    """`forward 1 m turn left 90 4x`: motions that nothing parts are counted together.
+
+    Full turns may be counted alone: `forward 1 m spin 360 twice`.
+    """
+    counted = (atom.kind, atom.value) == ("q", "times") and all(a.kind in ("filler", "glue") for a in rest)
+    run = [*frames, current]
+    if not counted or not frames or any("times" in f.q or f.shape for f in run) or "turns" in current.q:
+        return False
+    return all(f.moves and (f.has_extent or "number" in f.q) for f in run) and (
+        current.verb not in TURN or _is_corner(current)
+    )
+
+
+def _pauses_between(atom: Atom, rest: list[Atom], current: Frame) -> bool:
+    """`… three times with a second in between`: the pause is no part of what is counted."""
+    pauses = (atom.kind, atom.value) in (("verb", "wait"), ("q", "time"))
+    between = any(a.kind == "flag" and a.value in ("between", "after_each") for a in rest)
+    return pauses and between and "times" in current.q
 
 
 def _is_bare_direction(frame: Frame) -> bool:

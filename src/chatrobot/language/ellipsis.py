@@ -150,6 +150,10 @@ def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] |
         if frame.turning:
             return "angle", math.radians(1.0)
         return "length", 0.01 if "units_cm" in frame.flags else 1.0
+    if frame.verb == "wait" and set(frame.q) == {"number"} and not (frame.direction or frame.roles):
+        return "time", 1.0  # `hold it there for five`
+    if _is_about(frame, value, state):
+        return "angle", math.radians(1.0)
     if degrees or _goes_on_in_degrees(frame, value, state):
         return "angle", math.radians(1.0)
     if state.chosen_m and not (frame.has_extent or frame.turning or frame.roles) and _goes_somewhere(frame):
@@ -181,6 +185,12 @@ def _unit_by_sense(frame: Frame, value: float, state: State) -> tuple[str, float
 def _goes_somewhere(frame: Frame) -> bool:
     along = frame.direction in ("forward", "back") or (frame.verb in GO and not frame.direction)
     return along or frame.verb in ("slide", "return") or bool(_SLIDING & frame.flags)
+
+
+def _is_about(frame: Frame, value: float, state: State) -> bool:
+    """`forward 2 m, 180, forward 2 m`: where lengths are in metres, a half turn or full ones."""
+    alone = len(frame.texts) == 1 and set(frame.q) == {"number"} and frame.joined != "start"
+    return alone and value in (180.0, 360.0, 720.0) and state.last == "drive" and state.unit_m == 1.0
 
 
 def _goes_on_aside(frame: Frame, state: State) -> bool:
@@ -216,6 +226,7 @@ def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
 def _means_degrees(frame: Frame, value: float) -> bool:
     """`turn left 90`, `left 90`, `do a 180`: a multiple of 15 at a turn is degrees."""
     turning = frame.turning or (not frame.verb and frame.direction in SIDES and not _SLIDING & frame.flags)
+    turning |= frame.is_arc and frame.sided and "radius" in frame.q  # `curve left 90 with a radius of 1 m`
     spinning = frame.verb == "make" and not frame.direction and value % 90 == 0
     return (turning or spinning) and not frame.has_extent and 15 <= value <= 1080 and value % 15 == 0
 

@@ -32,6 +32,13 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
         return None
+    if (
+        set(last.q) == {"number"}
+        and not (last.moves or last.flags)
+        and first.moves
+        and (first.has_extent or first.verb == "return")
+    ):
+        return None  # `1 m, 180, 1 m back`
     if "number" in last.q and last.direction in SIDES and set(first.q) == {"length"} and not first.moves:
         return None  # `left 45, 1 m`: a turn, then a drive
     if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:

@@ -64,6 +64,9 @@ def _with_fraction(atoms: Atoms, number: Number) -> Number:
     if is_kind(atoms, end, "fraction") and value == int(value if math.isfinite(value) else 0):
         parts = float(atoms[end].value)
         if parts == 2 and value not in (1.0, 0.0):
+            turns = is_kind(atoms, end + 1, "verb", "turn") and atoms[end + 1].text.endswith("s")
+            if turns and atoms[end].text == "half":
+                return Number(value * 0.5, end + 1)  # `three half turns`
             return Number(value + 0.5, end + 1) if atoms[end].text == "half" else number
         return Number(value / parts, end + 1)
     if end < len(atoms) and atoms[end].text == "又":
@@ -136,7 +139,8 @@ def _plain(atoms: Atoms, i: int) -> Number | None:
     while i < len(atoms):
         atom = atoms[i]
         if atom.kind == "number":
-            joined = _joined(current, atom, float(atom.value))
+            written = current is not None and atoms[i - 1].text[-1:].isdigit()  # `a 360 five times`
+            joined = None if written and atom.text.isalpha() else _joined(current, atom, float(atom.value))
             if joined is None:
                 break
             after_zero = after_zero or (current is None and float(atom.value) == 0 and scale > 0)

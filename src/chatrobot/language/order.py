@@ -18,6 +18,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     if at is None:
         return list(atoms)
     word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
+    before = [a for a in head if a.kind not in ("filler", "glue", "sep")]
+    if before[1:] and (before[-1].kind, before[-1].value) == ("conn", "then"):
+        return [*head, *in_order(atoms[at:])]  # `turn right and then, after waiting 3 s, go 1 m`
     leads = not any(a.kind in _CONTENT for a in head)
     if word.value == "after" and not leads and any(a.kind == "flag" and a.value == "first" for a in head):
         return in_order([*head, _THEN, *tail])  # `first …, after you …`: as said
@@ -35,7 +38,7 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return [*tail, _THEN, *head] if not leads else list(atoms)
     if leads:
         comma = next((i for i, a in enumerate(tail) if a.kind == "sep" and a.value == "weak"), None)
-        at = comma if comma is not None else _second_order(tail)
+        at = comma if comma is not None else _second_order(tail, word.text.endswith(" you"))
         if at is None:
             return list(atoms)
         first, second = tail[:at], tail[at + (comma is not None) :]
@@ -45,7 +48,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return [*second[:end], _THEN, *first, *second[end:]]
     if word.value == "after":
         end = _ends_at(tail, at_then=True)
-        return [*tail[:end], _THEN, *head, *tail[end:]]
+        thens = [i + 1 for i, a in enumerate(head) if (a.kind, a.value) == ("conn", "then")]
+        cut = thens[-1] if thens else 0  # `go 1 m, then turn left after waiting 3 s`
+        return [*head[:cut], *tail[:end], _THEN, *head[cut:], *tail[end:]]
     return [*head, _THEN, *tail]
 
 
@@ -56,7 +61,7 @@ def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
     for before, i, after in zip(real, real[1:], real[2:]):
         if atoms[i].text.split()[-1:] != ["after"] or atoms[after].kind not in ("verb", "dir"):
             continue
-        gerund = atoms[after].text.split()[0].endswith("ing")
+        gerund = _is_gerund(atoms[after])
         if gerund and atoms[i].kind == "conn":
             out[i] = Atom("order", "after", atoms[i].text)
         elif (
@@ -69,13 +74,20 @@ def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
     return out
 
 
-def _second_order(tail: list[Atom]) -> int | None:
-    """`After waiting for 3 s | go 1 m`: where, without a comma, a gerund clause ends and the order begins."""
-    verbs = [i for i, a in enumerate(tail) if a.kind == "verb"]
-    if len(verbs) < 2 or not tail[verbs[0]].text.split()[0].endswith("ing"):
+def _second_order(tail: list[Atom], said_you: bool) -> int | None:
+    """`After waiting for 3 s | go 1 m`: where, without a comma, what is told ends and the order begins."""
+    begins = next((i for i, a in enumerate(tail) if a.kind in ("verb", "dir")), len(tail))
+    later = (i for i, a in enumerate(tail) if i > begins and a.kind == "verb" and a.text != tail[begins].text)
+    second = next(later, None)
+    if second is None or not (said_you or _is_gerund(tail[begins])) or _is_gerund(tail[second]):
         return None
-    said = any(a.kind in ("q", "dir", "rot", "place") for a in tail[: verbs[1]])
-    return verbs[1] if said and not tail[verbs[1]].text.split()[0].endswith("ing") else None
+    said = any(a.kind in ("q", "place") for a in tail[:second])
+    said |= not said_you and any(a.kind in ("dir", "rot") for a in tail[:second])
+    return second if said else None
+
+
+def _is_gerund(atom: Atom) -> bool:
+    return atom.text.split()[0].endswith("ing")
 
 
 def _ends_at(atoms: list[Atom], *, at_then: bool = False) -> int:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 
 from chatrobot.language.actions import act
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.manner import Pace
@@ -16,6 +18,11 @@ from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Say, Step, Turn, Wait
 
 _MIDDLE = frozenset({"中间", "当中"})
 _PASSES = frozenset({"每次", "两次"})
+
+
+@cache
+def _motions() -> frozenset[str]:
+    return frozenset(word for code in LANGUAGES for word in load_table(code, "repeats").get("motions", ()))
 
 
 def paced_legs(frames: list[Frame], pace: Pace) -> list[Step] | None:
@@ -56,8 +63,8 @@ def _covered(frames: list[Frame]) -> tuple[Frame | None, Frame | None]:
     return None, None
 
 
-def insert(script: Script, frame: Frame) -> None:
-    """A pause or a motion between the units, or after each of them."""
+def insert(script: Script, frame: Frame, *, counted: bool = False) -> None:
+    """A pause or a motion between the units, or after each of them; `counted`: they were just repeated."""
     if not frame.moves and set(frame.q) == {"time"}:
         frame = Frame(verb="wait", q=frame.q, flags=frame.flags, texts=frame.texts)
     steps = act(frame, script.state, script.pace)
@@ -70,7 +77,9 @@ def insert(script: Script, frame: Frame) -> None:
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
     pause = all(isinstance(s, (Wait, Say)) for s in steps)
-    if "between" in frame.flags and _PASSES & {text[:2] for text in frame.texts}:
+    if "between" in frame.flags and (
+        _PASSES & {text[:2] for text in frame.texts} or _parts_passes(frame, counted)
+    ):
         moving = _passes(moving)
     units: list[list[Step]] = []
     for k, unit in enumerate(moving):
@@ -78,6 +87,12 @@ def insert(script: Script, frame: Frame) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _parts_passes(frame: Frame, counted: bool) -> bool:
+    """`forward 1 m and back 1 m, three times, 5 s in between`: between the times, where no motion is named."""
+    between = next((text for text in frame.texts if "between" in text.split()), "")
+    return counted and bool(between) and not _motions() & set(between.split())
 
 
 def _passes(units: list[list[Step]]) -> list[list[Step]]:

@@ -15,7 +15,7 @@ from chatrobot.language.units import unit_at
 _SKIPPED = frozenset({
     "full", "complete", "complete,", "whole", "single", "entire", "of", "more", "further", "additional", "extra",
     "tiny", "small", "big", "large", "short", "long", "wide", "little", "equal", "identical", "different",
-    "separate", "straight", "quick", "slow", "new", "half", "good", "measly", "mere", "neat",
+    "separate", "straight", "quick", "slow", "new", "good", "measly", "mere", "neat",
     "个", "整", "的", "小", "大", "直", "完整", "完整的", "一个完整的",
 })  # fmt: skip
 """What may stand between a number and its unit and says nothing of its own."""

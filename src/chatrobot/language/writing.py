@@ -133,7 +133,8 @@ def _check_opener(frames: list[Frame]) -> None:
     if len(frames) < 2 or frames[0].texts != ["right"] or frames[0].q or frames[1].joined != "weak":
         return
     named = [frame for frame in frames if frame.direction in SIDES and not (frame.verb or frame.has_extent)]
-    if len(named) == 1 and frames[1].verb and not frames[1].texts[0].endswith("ing"):
+    told = frames[1].verb or (frames[1].direction and frames[1].has_extent)
+    if len(named) == 1 and told and not frames[1].texts[0].endswith("ing"):
         raise Unclear("unclear_motion", f"right, {frames[1].text}")
 
 
@@ -284,5 +285,5 @@ def _interlude(script: Script, frames: list[Frame], i: int) -> int | None:
         frame.flags.add("after_each")
     elif not frame.flags & {"between", "after_each"}:
         return None
-    insert(script, frame)
+    insert(script, frame, counted=i > 0 and is_times_only(frames[i - 1]))
     return i + 1
