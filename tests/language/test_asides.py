@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from chatrobot.language.acts import read_acts
-from chatrobot.language.beside import asides, is_sure_aside
+from chatrobot.language.beside import Aside, asides, is_sure_aside
 from chatrobot.language.normalise import normalise
 from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import Conversation
@@ -112,6 +112,19 @@ BEARING = [
     "go forward 1 m, but only after the gong",
     "go forward 1 m, not before Lucy nods",
     "go forward one metre, says the manual",
+    "Robot, slide one metre to the right once the glue is off the floor.",
+    "once I've found my spectacles, go forward 2 m",
+    "should the doorbell ring, drive one metre back",
+    "Go forward one metre. Oh, hang on, Daniel is on the carpet.",
+    "turn right 60 degrees. wait no the cable is still in",
+    "Turn left 90 degrees. That was the sentence on the worksheet.",
+    "Turn left 90 degrees. That's for the other robot, sorry.",
+    "go forward 2 m. Actually the crane is live, so leave it.",
+    "turn left 90 degrees, was the comment that got him banned",
+    "the sign on our rival's stand reads, go forward 2 m",
+    "My grandson will be here at four. Then you go forward 2 m.",
+    "some noob in chat wrote this and im just reading it out. slide 30 cm to the left",
+    "for every student who raises a hand, slide 30 cm to the left",
     "turn left 90 degrees, that's what the instructor barked at us",
     "My satnav went: turn left in 90 metres",
     "The bus goes left and my cat ran forward 1 m",
@@ -245,7 +258,7 @@ def test_what_sounds_like_talk_but_may_bear_on_the_order_leaves_it_a_proposal(te
 )
 def test_a_clause_with_an_amount_a_condition_or_a_denial_is_never_surely_an_aside(clause: str) -> None:
     reads = read_acts(normalise(f"{clause}, go forward 1 m"))
-    odds = dict.fromkeys(asides(reads), 99.0)
+    odds = dict.fromkeys(asides(reads), Aside(99.0, apart=False))
     assert not is_sure_aside(reads[0].clause, odds)
 
 

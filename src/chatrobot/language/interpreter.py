@@ -21,7 +21,7 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import with_manner
-from chatrobot.language.beside import any_may_bear, are_asides, refers
+from chatrobot.language.beside import any_may_bear, are_asides, odds_beside_asides, refers
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -43,10 +43,12 @@ from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, with_spoken_place
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
+from chatrobot.language.quoting import holds_back
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.shape_parts import part_of_shape
+from chatrobot.language.signs import clauses_of
 from chatrobot.language.starting import (
     mended_alone,
     not_ordered,
@@ -100,6 +102,8 @@ class OfflineInterpreter:
         meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language) if offers else ""
+        if meant.plan is not None and holds_back(clauses_of(text, names_in(context))):
+            meant = proposed(meant, language) or meant
         return asked_back(Unclear(reason, text), language) if reason else meant
 
     def _meant(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
@@ -246,7 +250,7 @@ class OfflineInterpreter:
         Raises:
             Unclear: where no clause orders anything.
         """
-        odds = order_log_odds(reads)
+        odds = odds_beside_asides(plain, reads, names_in(context))
         if (len(reads) == 1 and refers(reads[0].clause)) or wants_part(plain, language):
             odds = max(odds, ORDER)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:

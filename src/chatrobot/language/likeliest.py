@@ -15,7 +15,16 @@ from functools import lru_cache
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
-from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, any_may_bear, asides, is_sure_aside, refers
+from chatrobot.language.beside import (
+    MAYBE_ASIDE,
+    SURE_ASIDE,
+    Aside,
+    any_may_bear,
+    asides,
+    is_sure_aside,
+    odds_beside_asides,
+    refers,
+)
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
@@ -37,6 +46,7 @@ FAR_M = 10.0
 """A bare number above that is no number of metres."""
 _ALONE = frozenset({"NUMBER", "FLAG"})
 """Beside nothing else that moves a number stands alone: `and 45 more`."""
+_DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE"})
 _DEG = "deg"
 _DECIMAL = re.compile(r"\d*\.?\d+")
 
@@ -90,7 +100,7 @@ def likeliest(
     `unit` is the one that a bare number has after the motion before.
     """
     reads = read_acts(plain, names)
-    best = order_log_odds(reads)
+    best = odds_beside_asides(plain, reads, names)
     if any(refers(read.clause) for read in reads):  # `undo that, I forgot to film it`
         best = max(best, ORDER)
     if best < ORDER or len(reads) > MOST_CLAUSES:
@@ -100,7 +110,7 @@ def likeliest(
     rest = _Rest(plain, list(reads))
     # A question that a fact answers is not passed over for a motion, nor is the motion for it.
     odds = asides(reads) if problem.code != "question_beside" else {}
-    told = [read for read in reads if is_sure_aside(read.clause, odds)]
+    told = [read for read in reads if is_sure_aside(read.clause, odds) and _is_no_part(read, reads, odds)]
     for clause in [clause for clause in reads if clause in told or _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
     is_sure = bool(told) or not problem.refused
@@ -199,7 +209,7 @@ def _is_sure_talk(read: Read, best: float) -> bool:
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 
-def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names, odds: Mapping[int, float]) -> bool:
+def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names, odds: Mapping[int, Aside]) -> bool:
     """Leave out what the rules stumbled on; False where it may be what was meant."""
     clause = rest.with_part(stumbled.part)
     if clause is not None and _may_be_left_out(rest, clause, stumbled, best, odds):
@@ -215,16 +225,25 @@ def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names, odds: Ma
 
 
 def _may_be_left_out(
-    rest: _Rest, read: Read, stumbled: Unclear, best: float, odds: Mapping[int, float]
+    rest: _Rest, read: Read, stumbled: Unclear, best: float, odds: Mapping[int, Aside]
 ) -> bool:
     """Whether the clause is no part of what is ordered, or most likely an aside to it."""
     # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
     if not any(read.clause.is_covered_by(other.clause) for other in rest.kept if other is not read):
         return False
     least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
-    if odds.get(read.clause.start, least - 1.0) >= least and not read.clause.denies:
+    aside = odds.get(read.clause.start)
+    if aside is not None and aside.odds >= least and not read.clause.denies:
         return True
     return (read.clause.talks or not stumbled.refused) and _leaves_order(rest, read, best)
+
+
+def _is_no_part(read: Read, reads: Sequence[Read], odds: Mapping[int, Aside]) -> bool:
+    """Whether it stands in a sentence of its own, or the rest says by itself what to do."""
+    others = [other.clause for other in reads if other is not read]
+    if odds[read.clause.start].apart or any(read.clause.is_covered_by(other) for other in others):
+        return True
+    return any(sign.moves and sign.label in _DOES for other in others for sign in other.signs)
 
 
 def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
