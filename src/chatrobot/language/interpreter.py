@@ -45,6 +45,7 @@ from chatrobot.language.remembering import read_remembering
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.starting import (
+    hardly_ordered,
     mended_alone,
     not_ordered,
     with_told_apart,
@@ -92,11 +93,16 @@ class OfflineInterpreter:
         return read_glossed(text, language, context, self._read)
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
+        said = with_told_apart(normalise(text), language)
+        text = mended_alone(without_call_sign(said, language))
         meant = self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language) if offers else ""
-        return asked_back(Unclear(reason, text), language) if reason else meant
+        if reason:
+            return asked_back(Unclear(reason, text), language)
+        if meant.plan is not None and hardly_ordered(said, language):
+            return proposed(meant, language) or meant
+        return meant
 
     def _meant(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         try:

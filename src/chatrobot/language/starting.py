@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.typos import correct
@@ -61,7 +61,22 @@ def not_ordered(plain: str, language: str) -> str:
     """
     if _pattern(language, "withdrawn").search(plain):
         return "taken_back"
-    return "nothing_to_do" if _pattern(language, "told").search(plain) else ""
+    return "nothing_to_do" if _says(plain, language, "told") else ""
+
+
+def hardly_ordered(plain: str, language: str) -> bool:
+    """Whether what a normalised text seems to order may as well be a remark: `great, a quarter turn to the left`."""
+    return _says(plain, language, "remarked")
+
+
+def _says(plain: str, language: str, name: str) -> bool:
+    return any(rule.search(plain) for rule in _rules(language, name))
+
+
+@cache
+def _rules(language: str, name: str) -> tuple[re.Pattern[str], ...]:
+    table = load_table(language, "starting")
+    return tuple(re.compile(in_full(rule, table.get("parts", {}))) for rule in table.get(name, ()))
 
 
 @cache
