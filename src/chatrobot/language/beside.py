@@ -29,6 +29,9 @@ NO_ASIDE = -3.0
 _REFERENCES = ((("flag", "again"),), (("flag", "other_way"),), (("verb", "undo"),))
 _POLITE = frozenset({"please", "opening", "robot", "request"})
 _BOUND = frozenset({"condition", "later"})
+_BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
+_ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
+_OPENING = frozenset({"opening", "robot", "social", "praise"})
 _NO_AMOUNTS = frozenset({"VERB", "DIR", "PLACE", "COUNTER", "FLAG"})
 
 
@@ -46,6 +49,24 @@ def is_sure_aside(clause: Clause, odds: Mapping[int, float]) -> bool:
     moving = {sign.label for sign in clause.signs if sign.moves and sign.label.isupper()}
     least = SURE_WITH_MOTION if clause.tells else SURE_ASIDE
     return moving <= _NO_AMOUNTS and odds.get(clause.start, least - 1.0) >= least
+
+
+def is_bare_beside_talk(reads: Sequence[Read]) -> bool:
+    """`Careful, left!`, `great, another metre, we'll be there by Christmas`: whether talk stands beside a way alone, or
+    an amount alone, that no verb and no other word asks for. It may as well belong to the talk."""
+    odds = asides(reads)
+    talk = [
+        read
+        for read in reads
+        if odds.get(read.clause.start, NO_ASIDE) >= SURE_ASIDE and not read.clause.tells
+    ]
+    signs = [sign for read in reads if read not in talk for sign in read.clause.signs]
+    named = {sign.label for sign in signs if sign.moves and sign.label.isupper()}
+    if not named <= _BARE or ("DIR" in named and len(named) > 1):
+        return False
+    if any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
+        return False
+    return any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
 
 
 def refers(clause: Clause) -> bool:

@@ -21,7 +21,7 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import with_manner
-from chatrobot.language.beside import any_may_bear, are_asides, refers
+from chatrobot.language.beside import any_may_bear, are_asides, is_bare_beside_talk, refers
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -56,7 +56,7 @@ from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
-from chatrobot.plan.steps import Plan, Step, Wait
+from chatrobot.plan.steps import Plan, RawTwist, Step, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
@@ -100,7 +100,11 @@ class OfflineInterpreter:
         reason = not_ordered(text, language) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
-        if meant.plan is not None and hardly_ordered(said, language):
+        bare = meant.plan is not None and not (
+            meant.corrects or context.dialogue.pending or _has_twists(meant.plan)
+        )
+        may_be_talk = bare and is_bare_beside_talk(read_acts(text, names_in(context)))
+        if may_be_talk or hardly_ordered(said, language):
             return proposed(meant, language) or meant
         return meant
 
@@ -248,6 +252,10 @@ class OfflineInterpreter:
 
 def _moves(plan: Plan | None) -> list[Step]:
     return [step for step in (plan.steps if plan is not None else ()) if not isinstance(step, Wait)]
+
+
+def _has_twists(plan: Plan) -> bool:
+    return any(isinstance(step, RawTwist) for step in plan.steps)
 
 
 def _has_a_stop_line(text: str) -> bool:
