@@ -53,7 +53,7 @@ def is_sure_aside(clause: Clause, odds: Mapping[int, float]) -> bool:
 
 def is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     """`Careful, left!`, `great, another metre, we'll be there by Christmas`: whether talk stands beside a way alone, or
-    an amount alone, that no verb and no other word asks for. It may as well belong to the talk."""
+    an amount alone, or praise behind both, and no verb or other word asks for it. It may as well be part of the talk."""
     odds = asides(reads)
     talk = [
         read
@@ -62,11 +62,12 @@ def is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     ]
     signs = [sign for read in reads if read not in talk for sign in read.clause.signs]
     named = {sign.label for sign in signs if sign.moves and sign.label.isupper()}
-    if not named <= _BARE or ("DIR" in named and len(named) > 1):
+    if not named <= _BARE or any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
         return False
-    if any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
-        return False
-    return any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
+    if talk and talk[-1] is reads[-1] and any(sign.label == "praise" for sign in reads[-1].clause.signs):
+        return True
+    is_whole = "DIR" in named and len(named) > 1
+    return not is_whole and any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
 
 
 def refers(clause: Clause) -> bool:
