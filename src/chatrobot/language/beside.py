@@ -31,7 +31,7 @@ _POLITE = frozenset({"please", "opening", "robot", "request"})
 _BOUND = frozenset({"condition", "later"})
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
-_OPENING = frozenset({"opening", "robot", "social", "praise"})
+_OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
 _NO_AMOUNTS = frozenset({"VERB", "DIR", "PLACE", "COUNTER", "FLAG"})
 
 
@@ -52,22 +52,29 @@ def is_sure_aside(clause: Clause, odds: Mapping[int, float]) -> bool:
 
 
 def is_bare_beside_talk(reads: Sequence[Read]) -> bool:
-    """`Careful, left!`, `great, another metre, we'll be there by Christmas`: whether talk stands beside a way alone, or
-    an amount alone, or praise behind both, and no verb or other word asks for it. It may as well be part of the talk."""
+    """Whether a way alone or an amount alone stands beside talk (`left, of course`), or a whole motion before praise.
+
+    No verb and no other word asks for it, so it may as well be part of the talk.
+    """
     odds = asides(reads)
-    talk = [
-        read
-        for read in reads
-        if odds.get(read.clause.start, NO_ASIDE) >= SURE_ASIDE and not read.clause.tells
-    ]
-    signs = [sign for read in reads if read not in talk for sign in read.clause.signs]
-    named = {sign.label for sign in signs if sign.moves and sign.label.isupper()}
-    if not named <= _BARE or any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
+    bare = [read for read in reads if not _is_told(read, odds)]
+    named = {sign.label for read in bare for sign in read.clause.signs if sign.moves and sign.label.isupper()}
+    if not named or not named <= _BARE:
         return False
+    if any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
+        return False
+    talk = [read for read in reads if read not in bare]
     if talk and talk[-1] is reads[-1] and any(sign.label == "praise" for sign in reads[-1].clause.signs):
         return True
     is_whole = "DIR" in named and len(named) > 1
     return not is_whole and any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
+
+
+def _is_told(read: Read, odds: Mapping[int, float]) -> bool:
+    """Whether a clause names no motion at all, or is surely an aside without an amount."""
+    if not any(sign.moves and sign.label.isupper() for sign in read.clause.signs):
+        return True
+    return odds.get(read.clause.start, NO_ASIDE) >= SURE_ASIDE and not read.clause.tells
 
 
 def refers(clause: Clause) -> bool:
