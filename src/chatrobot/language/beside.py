@@ -6,6 +6,7 @@ all others alike, and at the words and how they end. The weights are fitted by s
 
 from __future__ import annotations
 
+import itertools
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
@@ -32,6 +33,7 @@ _BOUND = frozenset({"condition", "later"})
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
+_CALLING = frozenset({"person", "please"})
 _NO_AMOUNTS = frozenset({"VERB", "DIR", "PLACE", "COUNTER", "FLAG"})
 
 
@@ -68,6 +70,19 @@ def is_bare_beside_talk(reads: Sequence[Read]) -> bool:
         return True
     is_whole = "DIR" in named and len(named) > 1
     return not is_whole and any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
+
+
+def calls_somebody(reads: Sequence[Read]) -> bool:
+    """`Please Ben, not so fast, go back a step`: whether somebody else is called first, and the robot is not."""
+    before = [read.clause for read in itertools.takewhile(lambda read: not read.clause.moves, reads)]
+    if any(is_strong(clause.end) for clause in before):
+        return False  # `thanks, Mum. Now go forward`
+    called = any("person" in labels and labels <= _CALLING for labels in map(_labels, before))
+    return called and not any("robot" in _labels(read.clause) for read in reads)
+
+
+def _labels(clause: Clause) -> set[str]:
+    return {sign.label for sign in clause.signs}
 
 
 def _is_told(read: Read, odds: Mapping[int, float]) -> bool:

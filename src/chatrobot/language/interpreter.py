@@ -21,7 +21,7 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import with_manner
-from chatrobot.language.beside import any_may_bear, are_asides, is_bare_beside_talk, refers
+from chatrobot.language.beside import any_may_bear, are_asides, calls_somebody, is_bare_beside_talk, refers
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -103,7 +103,8 @@ class OfflineInterpreter:
         bare = meant.plan is not None and not (
             meant.corrects or context.dialogue.pending or _has_twists(meant.plan)
         )
-        may_be_talk = bare and is_bare_beside_talk(read_acts(text, names_in(context)))
+        reads = read_acts(text, names_in(context)) if bare else []
+        may_be_talk = bare and (is_bare_beside_talk(reads) or calls_somebody(reads))
         if may_be_talk or hardly_ordered(said, language):
             return proposed(meant, language) or meant
         return meant
