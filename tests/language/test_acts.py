@@ -21,7 +21,7 @@ from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.signs import clauses_of
 from chatrobot.plan.text import format_plan
-from tests.language.dialogue_runner import Conversation
+from tests.language.dialogue_runner import Conversation, conversation
 
 FRAMES = Path(__file__).parents[1] / "corpus" / "frames"
 TALK = [
@@ -33,6 +33,20 @@ TALK = [
     "right, that was good", "right, you did well", "right, so that's how it works",
     "刚才走得不错", "正方形有四条边", "他昨天往前开了三米", "你会不会原地转圈", "如果我说前进你会怎么样",
     "明天再往前走两米", "老师说等会儿再前进", "不用再往左转了", "我左转的时候摔了一跤", "两米有多远啊",
+    "careful, left!", "mind the step on the right", "still 20 cm to go", "2 m forward, 3 cm off",
+    "stand back, it's moving",
+    "90 left: ok. 90 right: ok", "after 1 m the drift was 2 cm to the left", "nice, a perfect quarter turn to the left",
+    "a step forward and two back, that's life", "back to square one", "good dog, turn around", "Henry! get back here!",
+    "at three o'clock you'll drive to the kitchen", "fast forward thirty seconds", "go back two slides",
+    "左边!小心!", "航向偏左3度", "走完一米后向左漂了两厘米", "走得笔直,两米一点没偏", "快进三十秒",
+    "往前两米是不是极限",
+    "往后半米,哦不用了,这儿挺好", "Papa, rutsch mal ein Stück nach links", "90 Grad links, 2 Grad daneben",
+    "Und ab nach Hause, so ist das Leben", "Soll 1,00 m, ist 1,03 m", "Noch zwei Meter zu fahren",
+]  # fmt: skip
+REMARKS = [
+    "left, of course", "another metre, at this rate we'll be there by Christmas", "too far again",
+    "left again, typical",
+    "same as last time", "跟刚才一样", "左边,果然", "Nur die Hälfte, tja", "Und wieder links, wie originell",
 ]  # fmt: skip
 
 ORDERS = {
@@ -44,6 +58,8 @@ ORDERS = {
     "I was wondering if you could back up 50 cm": "drive 0.5 m back",
     "would you mind turning around?": "turn left 180 deg",
     "how about going forward 60 cm": "drive 0.6 m",
+    "great, two metres forward": "drive 2 m",
+    "left 90 degrees, careful": "turn left 90 deg",
     "you're too close to me, back off 50 cm": "drive 0.5 m back",
     "that was nice, now another metre forward": "drive 1 m",
     "你能往前走一米吗": "drive 1 m",
@@ -64,6 +80,11 @@ MIXED = {
 @pytest.mark.parametrize("text", TALK)
 def test_talk_moves_nothing(text: str) -> None:
     assert Conversation().say(text).plan is None
+
+
+@pytest.mark.parametrize("text", REMARKS)
+def test_a_remark_on_what_was_done_moves_nothing(text: str) -> None:
+    assert conversation("drive 1 m").say(text).plan is None
 
 
 @pytest.mark.parametrize(("text", "plan"), [*ORDERS.items(), *MIXED.items()])

@@ -21,7 +21,12 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import with_manner
-from chatrobot.language.beside import any_may_bear, are_asides, odds_beside_asides, refers
+from chatrobot.language.beside import (
+    any_may_bear,
+    are_asides,
+    odds_beside_asides,
+    refers,
+)
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.context import Context
@@ -43,19 +48,17 @@ from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, with_spoken_place
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
-from chatrobot.language.quoting import holds_back
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.shape_parts import part_of_shape
-from chatrobot.language.signs import clauses_of
 from chatrobot.language.starting import (
     mended_alone,
-    not_ordered,
     with_told_apart,
     without_call_sign,
     without_hold,
 )
+from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
@@ -97,14 +100,16 @@ class OfflineInterpreter:
         return read_glossed(text, language, context, self._read)
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        text = mended_alone(without_call_sign(with_told_apart(normalise(text), language), language))
-        text = with_spoken_place(text, language, context)
+        said = with_told_apart(normalise(text), language)
+        text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
         meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language) if offers else ""
-        if meant.plan is not None and holds_back(clauses_of(text, names_in(context))):
-            meant = proposed(meant, language) or meant
-        return asked_back(Unclear(reason, text), language) if reason else meant
+        if reason:
+            return asked_back(Unclear(reason, text), language)
+        if hardly_ordered(said, language) or may_be_talk(meant, text, context):
+            return proposed(meant, language) or meant
+        return meant
 
     def _meant(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         try:

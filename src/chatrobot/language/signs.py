@@ -95,6 +95,11 @@ class Clause:
         return next((sign.label for sign in self.signs if sign.label not in _OPENING), "") == "not"
 
     @property
+    def calls(self) -> bool:
+        """`Henry!`: whether it only calls somebody, so that what comes after it is said to them."""
+        return self.end == "!" and all(sign.label == "person" for sign in self.signs)
+
+    @property
     def asks(self) -> bool:
         """`don't you …`, `did you …`: whether it begins as a question does."""
         return self.signs[0].label == "ask"
@@ -172,6 +177,7 @@ def clauses_of(text: str, names: Names = _NO_NAMES) -> list[Clause]:
             units.append((unit, match.start()))
     if units:
         found += _parted(list(_signs(units, names)), "", start, len(text))
+    found = [*(replace(clause, end=",") if clause.calls else clause for clause in found[:-1]), *found[-1:]]
     spans = until_spans(text)
     return (
         [replace(clause, signs=tuple(_measured(clause.signs, spans))) for clause in found] if spans else found

@@ -32,20 +32,20 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
 
 def without_hold(plain: str, language: str) -> str:
     """A normalised text without what holds it back; an empty string where nothing does."""
-    rest = _pattern(language, "held").sub("", plain)
+    rest = pattern_of(language, "held").sub("", plain)
     if rest == plain:
-        rest = _pattern(language, "held_opening").sub("", plain)
-    return _pattern(language, "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
+        rest = pattern_of(language, "held_opening").sub("", plain)
+    return pattern_of(language, "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
 
 
 def without_call_sign(plain: str, language: str) -> str:
     """A normalised text without the number that it calls the robot by, at its start: `unit four, go`."""
-    return _pattern(language, "call_sign").sub("", plain, count=1)
+    return pattern_of(language, "call_sign").sub("", plain, count=1)
 
 
 def with_told_apart(plain: str, language: str) -> str:
     """A normalised text with a mark before what it tells after an order: `back half a metre | you're on the cable`."""
-    return _pattern(language, "told_after").sub(lambda order: f"{order[0].rstrip()}, ", plain)
+    return pattern_of(language, "told_after").sub(lambda order: f"{order[0].rstrip()}, ", plain)
 
 
 def mended_alone(text: str) -> str:
@@ -56,21 +56,9 @@ def mended_alone(text: str) -> str:
     return word if lexicon().words.get((word,)) in _ALONE else text
 
 
-def not_ordered(plain: str, language: str) -> str:
-    """Why what a normalised text seems to order is not to be done, as a reason; "" where nothing says so.
-
-    It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted, or what ends
-    it is for no sensor to tell.
-    """
-    if _pattern(language, "withdrawn").search(plain):
-        return "taken_back"
-    if _pattern(language, "bounded").search(plain):
-        return "condition"
-    return "nothing_to_do" if _pattern(language, "told").search(plain) else ""
-
-
 @cache
-def _pattern(language: str, name: str) -> re.Pattern[str]:
+def pattern_of(language: str, name: str) -> re.Pattern[str]:
+    """A pattern of `starting.toml`; one that is never found where that language has none."""
     table = load_table(language, "starting")
     return re.compile(in_full(table.get(name, "(?!)"), table.get("parts", {})))
 
