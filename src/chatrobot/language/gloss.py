@@ -79,8 +79,8 @@ def _tidy(text: str) -> str:
 
 
 def _replaced(text: str, rules: Rules) -> str:
-    for pattern, by in rules:
-        text = pattern.sub(by, text)
+    for rule in rules:
+        text = rule.applied(text)
     return text
 
 

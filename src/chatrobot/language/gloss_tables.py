@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from chatrobot.language.data_files import compiled, expand, in_full, load_table
+from chatrobot.language.data_files import compiled, expand, load_table
+from chatrobot.language.rules import Rule, rules
 
 VERB = "^"
 """Follows a verb that may stand last in its clause, and is to open it."""
@@ -20,7 +21,7 @@ _ADJECTIVE = re.compile(r"^([a-z]\w*?)(?:er|es|e)(?= )")
 """The first word of a place's name where it begins with a small letter: its ending changes."""
 
 Key = tuple[str, ...]
-Rules = tuple[tuple[re.Pattern[str], str], ...]
+Rules = tuple[Rule, ...]
 
 
 @dataclass(frozen=True)
@@ -52,16 +53,15 @@ def tables(language: str) -> Tables:
         longest[key[0]] = max(longest.get(key[0], 0), len(key))
     numbers = rest["numbers"]
     listed = {name: _any_of(numbers[name]) for name in ("ones", "teens", "tens", "suffixes")}
-    before, rules, after = (
-        tuple((re.compile(in_full(pattern, rest["parts"])), by) for pattern, by in rest[name])
-        for name in ("before", "rules", "after")
+    before, ruled, after = (
+        rules(f"gloss_{language}_{name}", rest[name], rest["parts"]) for name in ("before", "rules", "after")
     )
     return Tables(
         words=words,
         dialect={written: plain for plain, listed in rest["dialect"].items() for written in listed},
         longest=longest,
         before=before,
-        rules=rules,
+        rules=ruled,
         after=after,
         openers=re.compile(rf"\s*(?:(?:{_any_of(map(re.escape, rest['openers']))})\b[ ]*)*"),
         modals=re.compile(rest["modals"]),

@@ -8,15 +8,15 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.data_files import load_table
 from chatrobot.language.normalise import has_chinese, normalise
+from chatrobot.language.rules import Rule, rules
 
 
 @cache
-def _rules(language: str, name: str = "rules") -> tuple[tuple[re.Pattern[str], str], ...]:
+def _rules(language: str, name: str = "rules") -> tuple[Rule, ...]:
     table = load_table(language, "rephrase")
-    parts: dict[str, str] = table.get("parts", {})
-    return tuple((re.compile(in_full(pattern, parts)), said) for pattern, said in table.get(name, ()))
+    return rules(f"rephrase_{language}_{name}", table.get(name, ()), table.get("parts", {}))
 
 
 @cache
@@ -112,9 +112,8 @@ def rephrased(text: str, language: str) -> str:
     text = pattern.sub(lambda found: written[found[0]], text)
     spoken, dialect = _dialect(language)
     text = dialect.sub(lambda found: spoken[found[0]], text)
-    for rule, said in _rules(language):
-        if rule.search(text):  # most do not match, and to prepare `said` takes longer than to see that
-            text = rule.sub(said, text)
+    for rule in _rules(language):
+        text = rule.applied(text)
     return text
 
 
@@ -122,8 +121,8 @@ def with_breaks(text: str, language: str) -> str:
     """`text` (normalised) with the commas that dictation leaves out: 转三圈我看看 is 转三圈, 我看看."""
     if re.search(load_table(language, "rephrase").get("unbroken", ""), text):
         return text
-    for rule, said in _rules(language, "breaks"):
-        text = rule.sub(said, text)
+    for rule in _rules(language, "breaks"):
+        text = rule.applied(text)
     return text
 
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 
 from chatrobot.language.acts import Read, read_acts
 from chatrobot.language.beside import SURE_ASIDE, Aside, asides
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.names import names_in
 from chatrobot.language.quoting import holds_back
+from chatrobot.language.rules import Rule, rules
 from chatrobot.language.signs import Clause, clauses_of, is_strong
 from chatrobot.language.starting import pattern_of
 from chatrobot.plan.steps import Plan, RawTwist
@@ -43,13 +43,13 @@ def hardly_ordered(plain: str, language: str) -> bool:
 
 
 def _says(plain: str, language: str, name: str) -> bool:
-    return any(rule.search(plain) for rule in _rules(language, name))
+    return any(rule.is_in(plain) for rule in _rules(language, name))
 
 
 @cache
-def _rules(language: str, name: str) -> tuple[re.Pattern[str], ...]:
+def _rules(language: str, name: str) -> tuple[Rule, ...]:
     table = load_table(language, "talk")
-    return tuple(re.compile(in_full(rule, table["parts"])) for rule in table[name])
+    return rules(f"talk_{language}_{name}", [(rule, "") for rule in table[name]], table["parts"])
 
 
 def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:

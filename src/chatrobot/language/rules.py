@@ -1,0 +1,113 @@
+"""Patterns of the data files, each compiled once a text comes that it may match.
+
+To compile all of them takes longer than to read a sentence. A pattern is tried only on a text that has a word which
+every match needs; which words those are is read off the pattern.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+
+from chatrobot.language.data_files import compiled, in_full
+
+_SHORTEST = 2
+_TOKEN = re.compile(
+    r"\\(?P<escaped>.)|(?P<set>\[\^?\]?(?:\\.|[^\]\\])*\])|(?P<around>\(\?(?:[=!]|<[=!]|\(\w+\)))|\(\?P=\w+\)(?P<back>)"
+    r"|(?P<open>\((?:\?(?::|P<\w+>))?)|(?P<close>\))|(?P<or>\|)|(?P<repeat>(?:[*+?]|\{\d*(?:,\d*)?\})[?+]?)"
+    r"|(?P<any>[.^$])|(?P<char>.)",
+    re.DOTALL,
+)
+Needed = frozenset[str]
+
+
+class Rule:
+    """A pattern, and what is put in place of what it matches."""
+
+    def __init__(self, pattern: str, said: str = "", needed: Iterable[str] | None = None) -> None:
+        self._source, self._said = pattern, said
+        self._needed = tuple(needed_by(pattern) if needed is None else needed)
+        self._is_tried = not self._needed
+
+    @cached_property
+    def _pattern(self) -> re.Pattern[str]:
+        return re.compile(self._source)
+
+    def is_in(self, text: str) -> bool:
+        """Return whether it matches somewhere in `text`."""
+        if not self._is_tried:
+            if not any(word in text for word in self._needed):
+                return False
+            self._is_tried = True
+        return self._pattern.search(text) is not None
+
+    def applied(self, text: str) -> str:
+        """Return `text` with each match replaced."""
+        # Most do not match, and to prepare what is put there takes longer than to see that.
+        return self._pattern.sub(self._said, text) if self.is_in(text) else text
+
+
+def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) -> tuple[Rule, ...]:
+    """Return rules from pairs of a pattern (`<part>` stands for one of `parts`) and what takes its place, in order.
+
+    Args:
+        name: of the file in the cache folder where the patterns in full, and what each needs, are kept.
+    """
+
+    def build() -> tuple[tuple[str, str, tuple[str, ...]], ...]:
+        full = ((in_full(pattern, parts), said) for pattern, said in listed)
+        return tuple((pattern, said, tuple(sorted(needed_by(pattern)))) for pattern, said in full)
+
+    return tuple(Rule(*one) for one in compiled(name, build))
+
+
+def needed_by(pattern: str) -> Needed:
+    """Return words of which every match of a pattern has one at least; none where that cannot be told."""
+    found, _ = _alternatives(list(_TOKEN.finditer(pattern)), 0)
+    return found
+
+
+def _alternatives(tokens: list[re.Match[str]], at: int) -> tuple[Needed, int]:
+    """What a group needs, from its first token on, and where it ends: all of what each alternative needs."""
+    needed: set[str] = set()
+    is_known = True
+    while True:
+        one, at = _sequence(tokens, at)
+        needed |= one
+        is_known = is_known and bool(one)
+        if at >= len(tokens) or tokens[at]["or"] is None:
+            return frozenset(needed if is_known else ()), at
+        at += 1
+
+
+def _sequence(tokens: list[re.Match[str]], at: int) -> tuple[Needed, int]:
+    """The best of what one alternative needs, and where it ends."""
+    best: Needed = frozenset()
+    run = ""
+    while at < len(tokens) and tokens[at]["or"] is None and tokens[at]["close"] is None:
+        token, last = tokens[at], at + 1
+        char, group = "", frozenset[str]()
+        if token["char"] is not None:
+            char = token["char"]
+        elif token["escaped"] is not None and not token["escaped"].isalnum():
+            char = token["escaped"]
+        elif token["open"] or token["around"]:
+            group, last = _alternatives(tokens, at + 1)
+            last += 1
+            group = group if token["open"] else frozenset()
+        repeat = tokens[last]["repeat"] if last < len(tokens) else None
+        at = last + (repeat is not None)
+        if repeat is not None and (repeat[0] in "*?" or repeat.startswith(("{0", "{,"))):
+            char, group = "", frozenset()
+        run += char
+        if not char or repeat is not None:
+            best, run = max(best, frozenset({run}), key=_worth), ""
+        best = max(best, group, key=_worth)
+    return max(best, frozenset({run}), key=_worth), at
+
+
+def _worth(needed: Needed) -> int:
+    """How rare a text is that has one of them: as the shortest of them is long; 0 where none tells anything."""
+    shortest = min(map(len, needed), default=0)
+    return shortest if shortest >= _SHORTEST else 0

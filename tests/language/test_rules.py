@@ -1,0 +1,83 @@
+"""A rule is compiled once a text comes that it may match, and skips no text that it matches."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.normalise import normalise
+from chatrobot.language.rules import needed_by
+
+CORPUS = Path(__file__).parents[1] / "corpus"
+
+
+def texts() -> Iterator[str]:
+    for file in (*sorted(CORPUS.glob("*.yaml")), *sorted((CORPUS / "sources").glob("dev_*.yaml"))):
+        for item in yaml.safe_load(file.read_text(encoding="utf-8")):
+            yield from (normalise(str(turn)) for turn in item.get("turns", [item.get("text", "")]))
+
+
+def patterns() -> Iterator[str]:
+    named = (("rephrase", "rules"), ("rephrase", "breaks"), ("talk", "told"), ("talk", "remarked"))
+    for language in ("en", "zh"):
+        for name, part in named:
+            table = load_table(language, name)
+            for rule in table.get(part, ()):
+                yield in_full(rule if isinstance(rule, str) else rule[0], table.get("parts", {}))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "needed"),
+    [
+        (r"\bprior to\b", {"prior to"}),
+        (r"\b(?:undo|revert) (?:the|that)", {"undo", "revert"}),
+        (r"(?:a|b)?foo", {"foo"}),
+        (r"(?<=foo)bar", {"bar"}),
+        (r"x{0,3}yy+zz", {"yy"}),
+        (r"往前走(?:一)?米", {"往前走"}),
+        (r"\d+ ?(?:m|cm)", set()),
+        (r"foo|\d", set()),
+    ],
+)
+def test_what_a_pattern_needs_is_read_off_it(pattern: str, needed: set[str]) -> None:
+    assert needed_by(pattern) == needed
+
+
+def test_no_rule_skips_a_text_that_it_matches() -> None:
+    said = " | ".join(texts())
+    sentences = said.split(" | ")
+    for pattern in patterns():
+        needed = needed_by(pattern)
+        if not needed:
+            continue
+        compiled = re.compile(pattern)
+        for sentence in sentences:
+            if not any(word in sentence for word in needed):
+                assert compiled.search(sentence) is None, (pattern, sentence)
+
+
+PIECES = st.recursive(
+    st.sampled_from(["a", "bc", "de ", r"\d", "[xy]", r"\b", r"\.", "前"]),
+    lambda inner: st.one_of(
+        st.lists(inner, min_size=1, max_size=3).map("".join),
+        st.lists(inner, min_size=1, max_size=3).map(lambda some: f"(?:{'|'.join(some)})"),
+        st.tuples(inner, st.sampled_from(["?", "*", "+", "{2}", "{0,1}"])).map(
+            lambda it: f"(?:{it[0]}){it[1]}"
+        ),
+    ),
+    max_leaves=8,
+)
+
+
+@given(PIECES, st.text("abcdexy.前 1", max_size=12))
+def test_it_holds_for_any_pattern(pattern: str, text: str) -> None:
+    if re.search(pattern, text):
+        needed = needed_by(pattern)
+        assert not needed or any(word in text for word in needed)
