@@ -143,8 +143,8 @@ def test_a_yes_and_a_no_answer_a_question() -> None:
 
 def test_every_rule_of_the_gloss_is_a_pattern_that_some_text_may_match() -> None:
     using = tables("de")
-    for pattern, by in (*using.before, *using.rules, *using.after):
-        assert pattern.groups >= max((int(n) for n in re.findall(r"\\(\d)", by)), default=0)
+    for rule in (*using.before, *using.rules, *using.after):
+        assert rule.pattern.groups >= max((int(n) for n in re.findall(r"\\(\d)", rule.said)), default=0)
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ CONDITIONS = (
 REMARKS = (
     "my sister is watching", "the baby is asleep", "because the neighbours are listening", "it's my birthday",
     "the kids love you", "there's a lot of space", "everyone is waiting", "we have guests", "you look great",
-    "so that my friends can see you", "if it isnt too much trouble", "he said you are clever",
+    "so that my friends can see you", "if it isnt too much trouble", "you look so clever",
 )  # fmt: skip
 
 

@@ -279,7 +279,7 @@ class OfflineInterpreter:
         plain = rest or plain
         if not plain:
             raise Unclear("empty")
-        program = read_program_request(plain)
+        program = read_program_request(normalise(text))
         if program is not None:
             return planned(program, language)
         twists = read_twists(plain)

@@ -26,12 +26,13 @@ class Rule:
     """A pattern, and what is put in place of what it matches."""
 
     def __init__(self, pattern: str, said: str = "", needed: Iterable[str] | None = None) -> None:
-        self._source, self._said = pattern, said
+        self._source, self.said = pattern, said
         self._needed = tuple(needed_by(pattern) if needed is None else needed)
         self._is_tried = not self._needed
 
     @cached_property
-    def _pattern(self) -> re.Pattern[str]:
+    def pattern(self) -> re.Pattern[str]:
+        """The pattern, compiled at the first look."""
         return re.compile(self._source)
 
     def is_in(self, text: str) -> bool:
@@ -40,12 +41,12 @@ class Rule:
             if not any(word in text for word in self._needed):
                 return False
             self._is_tried = True
-        return self._pattern.search(text) is not None
+        return self.pattern.search(text) is not None
 
     def applied(self, text: str) -> str:
         """Return `text` with each match replaced."""
         # Most do not match, and to prepare what is put there takes longer than to see that.
-        return self._pattern.sub(self._said, text) if self.is_in(text) else text
+        return self.pattern.sub(self.said, text) if self.is_in(text) else text
 
 
 def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) -> tuple[Rule, ...]:

@@ -16,7 +16,8 @@ from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import Rule, rules
 from chatrobot.language.signs import Clause, clauses_of, is_strong
 from chatrobot.language.starting import pattern_of
-from chatrobot.plan.steps import Plan, RawTwist
+from chatrobot.plan.base import Block
+from chatrobot.plan.steps import RawTwist, Step
 
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
@@ -59,7 +60,7 @@ def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:
     names = names_in(context)
     if holds_back(clauses_of(text, names)):
         return True
-    if meant.corrects or context.dialogue.pending or _has_twists(meant.plan):
+    if meant.corrects or context.dialogue.pending or _has_twists(meant.plan.steps):
         return False
     reads = read_acts(text, names)
     return _is_bare_beside_talk(reads) or _calls_somebody(reads)
@@ -78,6 +79,8 @@ def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     if any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
         return False
     talk = [read for read in reads if read not in bare]
+    if any(sign.moves and not sign.label.isupper() for read in talk for sign in read.clause.signs):
+        return False  # it points at the motion before: 一样，加二十厘米
     if talk and talk[-1] is reads[-1] and any(sign.label == "praise" for sign in reads[-1].clause.signs):
         return True
     is_whole = "DIR" in named and len(named) > 1
@@ -105,5 +108,5 @@ def _is_told(read: Read, found: Mapping[int, Aside]) -> bool:
     return aside is not None and aside.odds >= SURE_ASIDE and not read.clause.tells
 
 
-def _has_twists(plan: Plan) -> bool:
-    return any(isinstance(step, RawTwist) for step in plan.steps)
+def _has_twists(steps: Sequence[Step]) -> bool:
+    return any(isinstance(s, RawTwist) or (isinstance(s, Block) and _has_twists(s.steps)) for s in steps)
