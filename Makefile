@@ -36,7 +36,7 @@ lint: setup
 # promise that is broken twice is broken.
 AGAIN := --last-failed --last-failed-no-failures none
 # Looking through all other files costs each process five seconds; tests/conftest.py sees to it that none is missed.
-REALTIME = $(shell grep -rl --include='test_*.py' 'mark\.realtime' tests)
+REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark\.realtime' tests)) tests/ros
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 3
 	$(BIN)/pytest -m "realtime and not alone" -n 4 --dist loadfile $(REALTIME) || \

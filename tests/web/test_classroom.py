@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import itertools
+import re
 import stat
 import threading
 import time
@@ -59,7 +60,10 @@ def test_each_pupil_takes_the_lesson_and_the_teacher_moves_all_on(pupils: Runnin
     one.say("say", text="forward 70 cm")
     assert "the goal is still 0.30 m away" in one.wait_for("verdict", state="missing")["text"]
     one.say("say", text="another 30 cm")
-    assert one.wait_for("verdict")["text"] == "Task 1 passed: the robot stands at the goal; it drove 1.00 m."
+    passed = one.wait_for("verdict")["text"]
+    assert re.fullmatch(
+        r"Task 1 passed: the robot stands at the goal; it drove (1\.0[0-2]|0\.9[89]) m\.", passed
+    )
     robots = robots_where(teacher, lambda robots: robots[2]["lesson"]["states"][0] == "passed")
     assert [robot["lesson"]["number"] for robot in robots] == [1, 1, 2]
     one.say("say", text="/again")
