@@ -7,7 +7,7 @@ import pytest
 from chatrobot.core.geometry import Pose
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import Context, Dialogue, RobotState
-from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpretation import Interpretation, Placement
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.sim.world import World
 from tests.language.dialogue_runner import MECANUM, Conversation
@@ -72,16 +72,17 @@ def test_what_a_text_would_do_is_told_and_not_done(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "name", "at"),
     [
-        ("put a box in front of you", "box", [2.0, 1.0]),
-        ("place a chair 50 cm to your left", "chair", [1.0, 1.5]),
-        ("在前面两米放一个箱子", "箱子", [3.0, 1.0]),
-        ("Stell eine Kiste hinter dich", "Kiste", [0.0, 1.0]),
+        ("put a box in front of you", "box", (2.0, 1.0)),
+        ("place a chair 50 cm to your left", "chair", (1.0, 1.5)),
+        ("在前面两米放一个箱子", "箱子", (3.0, 1.0)),
+        ("Stell eine Kiste hinter dich", "Kiste", (0.0, 1.0)),
     ],
 )
-def test_a_thing_is_put_where_it_is_told_from_the_robot(text: str, name: str, at: list[float]) -> None:
+def test_a_thing_is_put_where_it_is_told_from_the_robot(
+    text: str, name: str, at: tuple[float, float]
+) -> None:
     context = Context(Dialogue(), RobotState(Pose(1.0, 1.0)))
-    obstacle = OfflineInterpreter(MECANUM).interpret(text, context).obstacle
-    assert (obstacle["add"], obstacle["circle"][:2]) == (name, at)
+    assert OfflineInterpreter(MECANUM).interpret(text, context).obstacle == Placement(name, at)
 
 
 def test_on_a_real_robot_nothing_is_put_anywhere() -> None:
@@ -89,4 +90,4 @@ def test_on_a_real_robot_nothing_is_put_anywhere() -> None:
     assert understanding.interpret("put a box in front of you").outcome == "refused"
     understanding.is_simulated = True
     assert understanding.interpret("put a box in front of you").outcome == "answered"
-    assert understanding.interpret("take the box away").obstacle == {"remove": "box"}
+    assert understanding.interpret("take the box away").obstacle == Placement("box")

@@ -17,10 +17,11 @@ from chatrobot.dialogue.replies import describe_waiting, parting
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
-from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpretation import Interpretation, Placement
 from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
 from chatrobot.language.shape_parts import asks_for_rest
+from chatrobot.link.envelope import OBSTACLE_RADIUS_M
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
@@ -210,11 +211,18 @@ class Dispatch:
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
             if meant.obstacle:
-                self._link.send("obstacle", **meant.obstacle)
+                self._place(meant.obstacle)
             self._understanding.note_unmoved(utterance.text, meant)
             self._llm.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
             reason, proposal = parting(meant), meant.proposal
             self._requests.conclude(utterance.turn, meant.outcome, meant.reply, None, reason, proposal)
+
+    def _place(self, thing: Placement) -> None:
+        """Put it into the simulation or take it away; Motion's notice says what came of it."""
+        if thing.at_m is None:
+            self._link.send("obstacle", remove=thing.name)
+        else:
+            self._link.send("obstacle", add=thing.name, circle=[*thing.at_m, OBSTACLE_RADIUS_M])
 
     def _told_under_way(self, meant: Interpretation) -> str:
         """The motion that runs and what is left of it; an empty string where no plan of ours runs."""

@@ -28,6 +28,7 @@ REPLY_LANGUAGES = (*LANGUAGES, "de")
 Compiled = TypeVar("Compiled")
 _CHECK_BYTES = 4
 _BRACES = re.compile(r"\{([^{}]*)\}")
+_NEVER = re.compile("(?!)")
 _PART = re.compile(r"(?<!\?P)<(\w+)>")
 
 
@@ -60,6 +61,20 @@ def in_full(pattern: str, parts: Mapping[str, str]) -> str:
     stands_for = parts[found[1]]
     grouped = stands_for if stands_for.startswith("(") else f"(?:{stands_for})"
     return in_full(pattern.replace(found[0], grouped), parts)
+
+
+@cache
+def forms(language: str, table: str, name: str) -> tuple[re.Pattern[str], ...]:
+    """The patterns that a table lists under a name, with its `[parts]` put in; none where that language has none."""
+    found = load_table(language, table)
+    listed = found.get(name, ())
+    listed = [listed] if isinstance(listed, str) else listed
+    return tuple(re.compile(in_full(pattern, found.get("parts", {}))) for pattern in listed)
+
+
+def form(language: str, table: str, name: str) -> re.Pattern[str]:
+    """The one pattern under that name; one that never matches where that language has none."""
+    return next(iter(forms(language, table, name)), _NEVER)
 
 
 def compiled(name: str, build: Callable[[], Compiled]) -> Compiled:

@@ -69,12 +69,10 @@ def _known(text: str, language: LanguageCode) -> str:
 def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
     """What a gloss means, with its words as the person wrote them."""
     reply, part = meant.reply, said.as_said(meant.unaccounted)
-    obstacle = {
-        key: said.as_said(value) if isinstance(value, str) else value for key, value in meant.obstacle.items()
-    }
+    obstacle = meant.obstacle and replace(meant.obstacle, name=said.as_said(meant.obstacle.name))
     place = said.as_said(meant.remember_place).lower()
-    names = ((value, obstacle[key]) for key, value in meant.obstacle.items() if isinstance(value, str))
-    for read, written in ((meant.unaccounted, part), (meant.remember_place, place), *names):
+    things = [(meant.obstacle.name, obstacle.name)] if meant.obstacle and obstacle else []
+    for read, written in ((meant.unaccounted, part), (meant.remember_place, place), *things):
         reply = _quoted(reply, read, written)
     offer = meant.proposal
     if offer is not None:

@@ -5,14 +5,12 @@ The words are `data/<code>/held.toml`. What changes it is read back, and waits a
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cache
 
 from chatrobot.language.answers import with_manner
 from chatrobot.language.command import of_before, read_command
-from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.data_files import form, forms, load_table
 from chatrobot.language.dialogue import refer
 from chatrobot.language.earlier_turns import answer_to_question
 from chatrobot.language.edit_words import Edit
@@ -79,7 +77,7 @@ def changed(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> li
     found = _said("added", plain, reading)
     if found is not None:
         return [*steps, *_steps(read_anew(found["new"]))]
-    own = read_anew(plain) if _pattern(reading.language, "instead").search(plain) else None
+    own = read_anew(plain) if form(reading.language, "held", "instead").search(plain) else None
     return (
         _in_place(own.plan.steps, steps, plain, reading) if own is not None and own.plan is not None else None
     )
@@ -91,7 +89,7 @@ def _in_place(own: Sequence[Step], steps: list[Step], plain: str, reading: Readi
     Raises:
         Unclear: it is less than a motion, and several could be meant.
     """
-    whole = len(own) > 1 or len(steps) == 1 or _pattern(reading.language, "instead_of_all").search(plain)
+    whole = len(own) > 1 or len(steps) == 1 or form(reading.language, "held", "instead_of_all").search(plain)
     if any(atom.kind in ("q", "shape", "place") for atom in reading.atoms(plain)):
         if whole:
             return list(own)
@@ -109,7 +107,7 @@ def _in_place(own: Sequence[Step], steps: list[Step], plain: str, reading: Readi
 
 def is_taken_back(plain: str, language: str) -> bool:
     """Whether a normalised text takes the whole plan back: `actually, skip it`."""
-    return any(form.fullmatch(plain.strip()) for form in _forms(language, "void"))
+    return any(one.fullmatch(plain.strip()) for one in forms(language, "held", "void"))
 
 
 def answered(plain: str, steps: tuple[Step, ...], reading: Reading) -> Interpretation | None:
@@ -282,20 +280,7 @@ def _of_last(plain: str, steps: list[Step], reading: Reading) -> list[Step] | No
 
 def _said(name: str, plain: str, reading: Reading) -> dict[str, str] | None:
     """What a text that is wholly one of these forms says in each of its gaps."""
-    said = (form.fullmatch(plain.strip()) for form in _forms(reading.language, name))
+    said = (one.fullmatch(plain.strip()) for one in forms(reading.language, "held", name))
     found = next(filter(None, said), None)
     gaps = dict.fromkeys(("nth", "kind", "named", "n", "sole", "new"), "")
     return {**gaps, **{k: v or "" for k, v in found.groupdict().items()}} if found else None
-
-
-@cache
-def _forms(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    table = load_table(language, "held")
-    forms = table.get(name, ())
-    parts = table.get("parts", {})
-    return tuple(re.compile(in_full(f, parts)) for f in ([forms] if isinstance(forms, str) else forms))
-
-
-@cache
-def _pattern(language: str, name: str) -> re.Pattern[str]:
-    return re.compile(load_table(language, "held").get(name, "(?!)"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.ledger import Walk
@@ -19,6 +19,14 @@ Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
 
 
 @dataclass(frozen=True)
+class Placement:
+    """A thing that is put somewhere, metres in the odom frame; without a place it is taken away."""
+
+    name: str
+    at_m: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
 class Interpretation:
     """What an utterance means.
 
@@ -27,7 +35,7 @@ class Interpretation:
     are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
     the robot stands now, `walk` what of the ledger of turns the plan undoes or does again; `corrects`: it puts the
     turn before right; `renamed`: what a taught place or word is called from now on, nothing where it is forgotten;
-    `obstacle`: what the link is to change in the simulation (`obstacle` of link/envelope.py).
+    `obstacle`: what is to be put into the simulation or taken out of it.
     """
 
     outcome: Outcome
@@ -43,7 +51,7 @@ class Interpretation:
     walk: Walk | None = None
     corrects: bool = False
     renamed: Mapping[str, str] = field(default_factory=dict)
-    obstacle: Mapping[str, Any] = field(default_factory=dict)
+    obstacle: Placement | None = None
     default_speed_mps: float | None = None
     default_rate_radps: float | None = None
 

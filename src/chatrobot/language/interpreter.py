@@ -171,6 +171,8 @@ class OfflineInterpreter:
     def _of_held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood."""
         held, reading = context.dialogue.held, Reading(language, context, self._profile)
+        if held is None and not context.dialogue.pending:
+            return None
         plain = rephrased(normalise(text), language)
         if held is None:
             return answered_late(plain, reading)

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
-from functools import cache
 
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import forms
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
 
 _QUOTES = " \"'“”„‚‘’「」『』.,!?。"
-
-
-@cache
-def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    return tuple(map(re.compile, load_table(language, "naming")[name]))
 
 
 def read_naming(plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
@@ -29,7 +22,7 @@ def read_naming(plain: str, language: LanguageCode, context: Context) -> Interpr
     """
     said = plain.strip(_QUOTES)
     for kind in ("forget", "rename"):
-        for pattern in _patterns(language, kind):
+        for pattern in forms(language, "naming", kind):
             found = pattern.fullmatch(said)
             name = _known(found["name"], context) if found else ""
             if found and name:
@@ -70,7 +63,7 @@ def told_what_it_would_do(
     Raises:
         Unclear: where what is asked about is not understood.
     """
-    for pattern in _patterns(language, "would"):
+    for pattern in forms(language, "naming", "would"):
         found = pattern.fullmatch(plain.strip(" .!?。"))
         if found:
             meant = read(found["said"].strip(_QUOTES))

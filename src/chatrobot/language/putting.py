@@ -6,12 +6,11 @@ import math
 import re
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
-from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.interpretation import Interpretation, LanguageCode, Placement
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.phrases import say
 from chatrobot.language.quantities import read_quantities
@@ -21,7 +20,6 @@ from chatrobot.language.unclear import Unclear
 _SIDES_RAD = {"ahead": 0.0, "left": math.pi / 2.0, "behind": math.pi, "right": -math.pi / 2.0}
 AWAY_M = 1.0
 """How far off it is put where nobody says how far, from the middle of the robot."""
-RADIUS_M = 0.15
 
 
 @cache
@@ -44,14 +42,13 @@ def read_putting(plain: str, language: LanguageCode, context: Context) -> Interp
             continue
         name = found["thing"]
         if kind == "remove":
-            return _changing("removing", name, {"remove": name}, language)
-        x_m, y_m = _where(found.groupdict(), language, context)
-        return _changing("putting", name, {"add": name, "circle": [x_m, y_m, RADIUS_M]}, language)
+            return _changing("removing", Placement(name), language)
+        return _changing("putting", Placement(name, _where(found.groupdict(), language, context)), language)
     return None
 
 
-def _changing(code: str, name: str, obstacle: Mapping[str, Any], language: LanguageCode) -> Interpretation:
-    return Interpretation("answered", say(language, code, name=name), language, obstacle=obstacle)
+def _changing(code: str, obstacle: Placement, language: LanguageCode) -> Interpretation:
+    return Interpretation("answered", say(language, code, name=obstacle.name), language, obstacle=obstacle)
 
 
 def _where(said: Mapping[str, str | None], language: str, context: Context) -> tuple[float, float]:

@@ -6,7 +6,7 @@ Plain rewriting of normalised text, by the patterns of `rephrase.toml`, before a
 from __future__ import annotations
 
 import re
-from functools import cache
+from functools import cache, lru_cache
 
 from chatrobot.language.data_files import load_table
 from chatrobot.language.normalise import has_chinese, normalise
@@ -104,6 +104,7 @@ def _of_wishes(text: str, language: str) -> str:
     return text[: found.start()] + pattern.sub(lambda past: pasts[past[0]], text[found.end() :])
 
 
+@lru_cache(maxsize=256)
 def rephrased(text: str, language: str) -> str:
     """`text` (normalised) in the words that the rest of the package reads."""
     text = _of_wishes(text, language)

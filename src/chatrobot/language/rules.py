@@ -25,9 +25,9 @@ Needed = frozenset[str]
 class Rule:
     """A pattern, and what is put in place of what it matches."""
 
-    def __init__(self, pattern: str, said: str = "", needed: Iterable[str] | None = None) -> None:
+    def __init__(self, pattern: str, said: str, needed: tuple[str, ...]) -> None:
         self._source, self.said = pattern, said
-        self._needed = tuple(needed_by(pattern) if needed is None else needed)
+        self._needed = needed
         self._is_tried = not self._needed
 
     @cached_property
@@ -38,7 +38,10 @@ class Rule:
     def is_in(self, text: str) -> bool:
         """Return whether it matches somewhere in `text`."""
         if not self._is_tried:
-            if not any(word in text for word in self._needed):
+            for word in self._needed:  # `any` would take three times as long, and most stop here
+                if word in text:
+                    break
+            else:
                 return False
             self._is_tried = True
         return self.pattern.search(text) is not None

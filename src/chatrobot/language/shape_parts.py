@@ -10,10 +10,9 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.data_files import forms, load_table
 from chatrobot.language.normalise import normalise
 from chatrobot.language.rephrase import plain_text
 from chatrobot.language.unclear import Unclear
@@ -46,7 +45,7 @@ def asks_for_rest(text: str, language: str) -> bool:
 
 def _cut(plain: str, language: str) -> tuple[str, int] | None:
     """The text of the whole shape, and how many of its sides are wanted; None where it wants all."""
-    for form in _forms(language, "some"):
+    for form in forms(language, "shape_parts", "some"):
         found = form.search(plain)
         if found is not None:
             whole = f"{plain[: found.start()]} {plain[found.end() :]}"
@@ -105,8 +104,8 @@ def _is_last(plain: str) -> bool:
 
 def _left_of_shape(language: str, dialogue: Dialogue, read: Read) -> list[Step] | None:
     """What is missing to the shape of which the turns before drove some sides; None where they drove none."""
-    begun = next((turn for turn in _begun(language, dialogue)), None)
-    cut = _cut(begun, language) if begun else None
+    begun = _begun(language, dialogue)
+    cut = _cut(begun[0], language) if begun else None
     if cut is None:
         return None
     whole, done = read(cut[0]), _driven(language, dialogue)
@@ -167,11 +166,7 @@ def _number(word: str, language: str) -> int:
 
 
 def _said(name: str, plain: str, language: str) -> dict[str, str] | None:
-    found = next(filter(None, (form.fullmatch(plain.strip()) for form in _forms(language, name))), None)
+    found = next(
+        filter(None, (form.fullmatch(plain.strip()) for form in forms(language, "shape_parts", name))), None
+    )
     return {"count": "", "nth": "", **{k: v or "" for k, v in found.groupdict().items()}} if found else None
-
-
-@cache
-def _forms(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    table = load_table(language, "shape_parts")
-    return tuple(re.compile(in_full(form, table.get("parts", {}))) for form in table.get(name, ()))

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
-from functools import cache
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.data_files import form
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.typos import correct
@@ -32,20 +30,20 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
 
 def without_hold(plain: str, language: str) -> str:
     """A normalised text without what holds it back; an empty string where nothing does."""
-    rest = pattern_of(language, "held").sub("", plain)
+    rest = form(language, "starting", "held").sub("", plain)
     if rest == plain:
-        rest = pattern_of(language, "held_opening").sub("", plain)
-    return pattern_of(language, "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
+        rest = form(language, "starting", "held_opening").sub("", plain)
+    return form(language, "starting", "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
 
 
 def without_call_sign(plain: str, language: str) -> str:
     """A normalised text without the number that it calls the robot by, at its start: `unit four, go`."""
-    return pattern_of(language, "call_sign").sub("", plain, count=1)
+    return form(language, "starting", "call_sign").sub("", plain, count=1)
 
 
 def with_told_apart(plain: str, language: str) -> str:
     """A normalised text with a mark before what it tells after an order: `back half a metre | you're on the cable`."""
-    return pattern_of(language, "told_after").sub(lambda order: f"{order[0].rstrip()}, ", plain)
+    return form(language, "starting", "told_after").sub(lambda order: f"{order[0].rstrip()}, ", plain)
 
 
 def mended_alone(text: str) -> str:
@@ -54,13 +52,6 @@ def mended_alone(text: str) -> str:
         return text
     word = correct(text)
     return word if lexicon().words.get((word,)) in _ALONE else text
-
-
-@cache
-def pattern_of(language: str, name: str) -> re.Pattern[str]:
-    """A pattern of `starting.toml`; one that is never found where that language has none."""
-    table = load_table(language, "starting")
-    return re.compile(in_full(table.get(name, "(?!)"), table.get("parts", {})))
 
 
 def _is_bare(frame: Frame) -> bool:

@@ -9,13 +9,12 @@ from functools import cache
 from chatrobot.language.acts import Read, read_acts
 from chatrobot.language.beside import SURE_ASIDE, Aside, asides
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import form, load_table
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.names import names_in
 from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import Rule, rules
 from chatrobot.language.signs import Clause, clauses_of, is_strong
-from chatrobot.language.starting import pattern_of
 from chatrobot.plan.base import Block
 from chatrobot.plan.steps import RawTwist, Step
 
@@ -31,9 +30,9 @@ def not_ordered(plain: str, language: str) -> str:
     It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted, or what ends
     it is for no sensor to tell.
     """
-    if pattern_of(language, "withdrawn").search(plain):
+    if form(language, "starting", "withdrawn").search(plain):
         return "taken_back"
-    if pattern_of(language, "bounded").search(plain):
+    if form(language, "starting", "bounded").search(plain):
         return "condition"
     return "nothing_to_do" if _says(plain, language, "told") else ""
 
@@ -58,7 +57,10 @@ def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:
     if meant.plan is None:
         return False
     names = names_in(context)
-    if holds_back(clauses_of(text, names)):
+    clauses = clauses_of(text, names)
+    if len(clauses) < 2:
+        return False  # there is nothing beside it
+    if holds_back(clauses):
         return True
     if meant.corrects or context.dialogue.pending or _has_twists(meant.plan.steps):
         return False

@@ -9,22 +9,17 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import LANGUAGES, form, load_table
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _SHOWN = 60
 
 
-@cache
-def _pattern(language: str, name: str) -> re.Pattern[str]:
-    return re.compile(str(load_table(language, "unfinished").get(name, "$^")))
-
-
 def breaks_off(text: str, language: str) -> str:
     """The words with which a normalised text breaks off, or an empty string."""
-    found = _pattern(language, "end").search(text)
-    if found is None or _pattern(language, "complete").search(text):
+    found = form(language, "unfinished", "end").search(text)
+    if found is None or form(language, "unfinished", "complete").search(text):
         return ""
     return found.group().strip(" .…,!-")
 

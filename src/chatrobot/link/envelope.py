@@ -43,6 +43,8 @@ Word = Literal[
     "obstacle",
     "goodbye",  # an orderly end: what is queued is still done, then the lease ends
 ]
+OBSTACLE_RADIUS_M = 0.2
+"""Of an obstacle that somebody puts there without saying how large it is."""
 MODES = ("queue", "replace", "append", "extend")
 """What becomes of what runs already. `extend`: the next part of a plan of this very turn that was sent with `more`; the
 part without `more` is the last and may be empty. What is to be approved, or only rehearsed, comes whole. `pauses`:

@@ -13,6 +13,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode, language_of_tags
+from chatrobot.link.envelope import OBSTACLE_RADIUS_M
 from chatrobot.reflex import is_release
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
@@ -29,8 +30,6 @@ MOST_MALFORMED = 10
 """A page that says so much that is not understood is none of ours."""
 UNSUPPORTED, POLICY, TRY_LATER = 1003, 1008, 1013
 """Codes of a closed WebSocket (RFC 6455, section 7.4): it sent bytes; it went too far; it reads too slowly."""
-RADIUS_M = 0.2
-"""Of an obstacle whose page does not say how large it is."""
 _BROWSERS = (("Edg", "Edge"), ("Firefox", "Firefox"), ("Chrome", "Chrome"), ("Safari", "Safari"))
 _numbers = itertools.count(1)
 
@@ -219,7 +218,11 @@ def _steer(room: Room, page: Page, said: dict[str, Any]) -> None:
 def _obstacle(room: Room, page: Page, said: dict[str, Any]) -> None:
     """Without a place it is taken away."""
     is_put = "x_m" in said and "y_m" in said
-    circle = [said["x_m"], said["y_m"], abs(said.get("radius_m", RADIUS_M)) or RADIUS_M] if is_put else None
+    circle = (
+        [said["x_m"], said["y_m"], abs(said.get("radius_m", OBSTACLE_RADIUS_M)) or OBSTACLE_RADIUS_M]
+        if is_put
+        else None
+    )
     room.change_obstacle(page, said["name"], circle)
 
 

@@ -16,6 +16,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import shown
 from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
+from chatrobot.link.envelope import OBSTACLE_RADIUS_M
 from chatrobot.link.processes import SIMULATED
 from chatrobot.robots.profile import NONE
 
@@ -167,7 +168,6 @@ _PUT = re.compile(
     r"(?:add|put|放)\s+(.+?)\s+(-?[\d.]+)[\s,]+(-?[\d.]+)(?:[\s,]+([\d.]+))?(?:\s*m)?", re.IGNORECASE
 )
 _TAKE = re.compile(r"(?:remove|take|拿走)\s+(.+)", re.IGNORECASE)
-_RADIUS_M = 0.2
 
 
 def _obstacle(controller: ChatController, argument: str) -> None:
@@ -177,7 +177,7 @@ def _obstacle(controller: ChatController, argument: str) -> None:
     if setup.on not in SIMULATED:
         controller.tell("obstacle_simulated_only")
     elif put is not None:
-        circle = [float(put[2]), float(put[3]), float(put[4] or _RADIUS_M)]
+        circle = [float(put[2]), float(put[3]), float(put[4] or OBSTACLE_RADIUS_M)]
         controller.attempt(lambda: controller.session.change_obstacle(add=put[1], circle=circle))
     elif take is not None:
         controller.attempt(lambda: controller.session.change_obstacle(remove=take[1]))
