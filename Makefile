@@ -31,6 +31,9 @@ lint: setup
 	$(BIN)/ruff format --check src tests examples scripts bench ros
 	$(BIN)/mypy
 
+# Where no process may keep its bytecode, each compiles all of ours anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 # Real processes in real time come after the rest, four at a time: they mostly wait. Those that measure a promise come
 # last, alone. What fails is tried once more with nothing beside it: a busy machine may hold a process up once, but a
 # promise that is broken twice is broken.

@@ -2,9 +2,9 @@
 
 First a browser's own event: the space bar in Chromium (`event.timeStamp`, on the clock of this process), while a plan,
 a program and a plan of a language model that hangs are driven. Then a WebSocket client that beats as a page does, with
-nobody else, with 20 who watch, and while the event loop of the pages computes something else and serves nobody. This
-process subscribes to the velocities of the simulated robot. Promised: 15 ms at the median, 40 ms at p99. Last what 20
-who watch a moving robot cost the server, of one core.
+nobody else, with 20 who watch, and while the event loop of the pages computes something else and serves nobody. Then a
+pupil's page while the other robots of a class of 20 move. This process subscribes to the velocities of the simulated
+robot. Promised: 15 ms at the median, 40 ms at p99. Last what 20 who watch a moving robot cost the server, of one core.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+from collections import deque
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -24,6 +26,7 @@ import psutil
 from playwright.sync_api import Browser, sync_playwright
 from tests.processes import RunningRobot
 from tests.web.browser import ARGUMENTS, find_browser, open_page
+from tests.web.class_rig import RunningClass
 
 from bench import line
 from bench.program_stop import SOURCE
@@ -33,6 +36,7 @@ from chatrobot.programs.library import KeptProgram, Library
 
 REPETITIONS = 20
 WATCHERS = 20
+PUPILS = 20
 PROMISED_S = (0.015, 0.040)
 COST_S = 5.0
 HANGS = {"match": "nice", "text": "drive 2 m\nturn", "hang_after": 10}
@@ -184,6 +188,32 @@ def in_the_browser(robot: RunningRobot, address: str) -> Iterator[bool]:
         browser.close()
 
 
+def in_a_class(folder: Path) -> bool:
+    """Print the row of a pupil who stops a robot while those of all others move; return whether it holds."""
+    running = RunningClass(folder, PUPILS)
+    try:
+        pages = [running.pupil(place) for place in range(PUPILS)]
+        for page in pages:  # a page that does not read what it is told is hung up on
+            threading.Thread(target=deque, args=(page.socket, 0), daemon=True).start()
+        for page in pages[1:]:
+            page.say("say", text="turn left 3600 degrees")
+        line_of_stop = running.dial("/stop", running.pupils_tokens()[0], pages[0].heard[0]["stop_port"])
+        took = []
+        for number in range(REPETITIONS):
+            said_s = time.monotonic()
+            pages[0].say("say", text=f"turn {'left' if number % 2 else 'right'} 90 degrees")
+            running.heard[0].wait_for_motion(said_s)
+            time.sleep(0.3)
+            stopped_s = time.monotonic()
+            line_of_stop.say("stop")
+            took.append(running.heard[0].wait_for_zero(stopped_s) - stopped_s)
+            time.sleep(0.3)
+        moving = sum(any(ear.all[-1][1]) for ear in running.heard[1:])
+        return line("the others of a class move", took, PROMISED_S, f"{moving} of them at the end")
+    finally:
+        running.close()
+
+
 def cost_of_watching(robot: RunningRobot, page: subprocess.Popen[str]) -> float:
     """Processor time of the server, as a share of one core, while a robot moves that so many watch."""
     tell(page, "turn left 720 degrees")
@@ -223,6 +253,8 @@ def main() -> None:
             name = f"{WATCHERS} watch"
             kept.append(line(name, [once(robot, page, text, busy=False) for text in texts], PROMISED_S))
             watched = cost_of_watching(robot, page)
+    with tempfile.TemporaryDirectory() as folder:
+        kept.append(in_a_class(Path(folder)))
     print(
         f"the server while the robot moves: {alone:.0%} of one core; with {WATCHERS} who watch: {watched:.0%}"
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import sys
 import tempfile
 import time
@@ -15,6 +16,7 @@ import pyte
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT_S = 20.0
+LEAVING_S = 5.0
 
 
 class _Screen(pyte.HistoryScreen):
@@ -68,7 +70,16 @@ class Terminal:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.child.close(force=True)
+        for number in (signal.SIGHUP, signal.SIGCONT):
+            self.child.kill(number)
+        until_s = time.monotonic() + LEAVING_S
+        while self.child.isalive() and time.monotonic() < until_s:
+            self.look(0.05)  # what nobody reads would hold it up
+            time.sleep(0.01)
+        if self.child.isalive():
+            self.child.kill(signal.SIGKILL)
+            self.child.wait()
+        self.child.close()
         self._runtime.cleanup()
 
     # --- typing ---
@@ -85,6 +96,16 @@ class Terminal:
     def resize(self, rows: int, columns: int) -> None:
         self.screen.resize(rows, columns)
         self.child.setwinsize(rows, columns)
+
+    def forget(self) -> None:
+        """Begin with an empty line on an empty screen, which the program draws anew."""
+        self.control("u")
+        until_s = time.monotonic() + TIMEOUT_S
+        while self.shown[0] != "›" or any(self.shown[1:-1]):
+            assert time.monotonic() < until_s, f"it keeps its screen:\n{self.text}"
+            self.control("l")  # again where something was printed after the last
+            self.look(0.2)
+        self.screen.history.top.clear()
 
     # --- seeing ---
 

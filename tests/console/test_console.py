@@ -14,57 +14,179 @@ STANDING, MOVING = "standing · ", "moving  "
 PLAN, DONE, STOPPED = "plan  ", "✓", "■"
 
 
-@pytest.fixture
-def chat(tmp_path):
-    with console(tmp_path) as terminal:
+def opened(folder, *options):
+    with console(folder, *options) as terminal:
         terminal.wait_for(STANDING)
         yield terminal
         assert "Traceback" not in terminal.text
         assert "Unhandled" not in terminal.text
 
 
-def test_a_newcomer_is_greeted_with_robot_world_and_three_things_to_say(chat):
-    text = " ".join(chat.text.split())
+@pytest.fixture
+def chat(tmp_path):
+    """A console of its own, for a test that ends it."""
+    yield from opened(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def at_home(tmp_path_factory):
+    """A console as a newcomer gets it, which several tests talk to."""
+    yield from opened(tmp_path_factory.mktemp("home"))
+
+
+@pytest.fixture(scope="module")
+def console_in_the_open(tmp_path_factory):
+    yield from opened(tmp_path_factory.mktemp("open"), "--world", "empty")
+
+
+@pytest.fixture
+def kept(console_in_the_open):
+    """A console that other tests have talked to; its screen is empty, and its robot stands somewhere in the open."""
+    console_in_the_open.wait_for(f"{STANDING}|停着")
+    console_in_the_open.forget()
+    return console_in_the_open
+
+
+def test_a_newcomer_is_greeted_with_robot_world_and_three_things_to_say(at_home):
+    text = " ".join(at_home.text.split())
     assert "Wheeltec mini mecanum (simulated) in world 'home'" in text
     for example in ("drive a 1 m square", "go to the kitchen", "向前走半米，然后左转", "/help"):
         assert example in text
 
 
-def test_a_motion_shows_its_plan_then_the_strip_then_what_was_measured(chat):
-    chat.enter("forward 0.4 m")
-    chat.wait_for(r"plan  0\.40 m, \d\.\d s\s+1  drive 0\.4 m")
-    chat.wait_for(MOVING)
-    assert any("%" in line and "─" in line for line in chat.shown)
-    chat.wait_for(r"→[⠀-⣿]")  # the robot on its way
-    chat.wait_for(r"✓ .*\s+now at \(0\.[34]\d, -?0\.0\d\) -?\d°, after \d\.\d s")
-    chat.wait_for(STANDING)
+def test_an_unknown_command_gets_the_nearest_one(at_home):
+    at_home.enter("/hlep")
+    at_home.wait_for("There is no /hlep; did you mean /help?")
+    at_home.enter("/qqqqqqq")
+    at_home.wait_for("There is no /qqqqqqq. /help lists the commands.")
 
 
-def test_a_stop_word_stops_the_motion_it_is_typed_into(chat):
-    chat.enter("forward 2 m")
-    chat.wait_for(MOVING)
-    chat.enter("stop!")
-    chat.wait_for(STOPPED)
-    chat.wait_for(STANDING)
-    assert DONE not in chat.text
+def test_the_commands_show_robot_world_and_plan(at_home, tmp_path):
+    at_home.enter("/plan")
+    at_home.wait_for("There is no plan yet")
+    at_home.enter("/robot")
+    at_home.wait_for("highest speed +1 m/s")
+    at_home.enter("/world")
+    at_home.wait_for("•kitchen")
+    at_home.enter("turn left 20 degrees")
+    at_home.wait_for(DONE)
+    at_home.enter(f"/save-plan {tmp_path / 'mine.plan'}")
+    at_home.wait_for("The plan is saved in")
+    assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
+    at_home.enter(f"/run-plan {tmp_path / 'mine.plan'}")
+    at_home.wait_for(r"now at .* (39|4[01])°")
+    at_home.enter("/run-plan")
+    at_home.wait_for(r"Which plan\? /run-plan FILE")
 
 
-def test_new_motion_replaces_the_old(chat):
-    chat.enter("forward 2 m")
-    chat.wait_for(MOVING)
-    chat.enter("turn left 20 degrees")
-    chat.wait_for(STOPPED)
-    chat.wait_for(DONE)
+def test_tab_completes_commands_and_places(at_home):
+    at_home.type("/rel")
+    at_home.wait_for("/release  release the emergency stop")
+    at_home.type("\t")
+    at_home.wait_for("› /release")
+    at_home.type("\r")
+    at_home.wait_for("The emergency stop is released")
+    at_home.type("go to the kitc\t")
+    at_home.wait_for("› go to the kitchen")
 
 
-def test_ctrl_c_stops_the_robot_and_says_so(chat):
-    chat.enter("forward 2 m")
-    chat.wait_for(MOVING)
-    chat.control("c")
-    chat.wait_for("The robot stops. Ctrl-C again leaves.")
-    chat.wait_for(STOPPED)
-    chat.enter("turn left 20 degrees")
-    chat.wait_for(DONE)
+def test_a_motion_shows_its_plan_then_the_strip_then_what_was_measured(kept):
+    kept.enter("forward 0.4 m")
+    kept.wait_for(r"plan  0\.40 m, \d\.\d s\s+1  drive 0\.4 m")
+    kept.wait_for(MOVING)
+    assert any("%" in line and "─" in line for line in kept.shown)
+    kept.wait_for(r"→[⠀-⣿]")  # the robot on its way
+    kept.wait_for(r"✓ .*\s+now at \(-?\d\.\d\d, -?\d\.\d\d\) -?\d+°, after \d\.\d s")
+    kept.wait_for(STANDING)
+
+
+def test_a_stop_word_stops_the_motion_it_is_typed_into(kept):
+    kept.enter("forward 2 m")
+    kept.wait_for(MOVING)
+    kept.enter("stop!")
+    kept.wait_for(STOPPED)
+    kept.wait_for(STANDING)
+    assert DONE not in kept.text
+
+
+def test_new_motion_replaces_the_old(kept):
+    kept.enter("forward 2 m")
+    kept.wait_for(MOVING)
+    kept.enter("turn left 20 degrees")
+    kept.wait_for(STOPPED)
+    kept.wait_for(DONE)
+
+
+def test_ctrl_c_stops_the_robot_and_says_so(kept):
+    kept.enter("forward 2 m")
+    kept.wait_for(MOVING)
+    kept.control("c")
+    kept.wait_for("The robot stops. Ctrl-C again leaves.")
+    kept.wait_for(STOPPED)
+    kept.enter("turn left 20 degrees")
+    kept.wait_for(DONE)
+
+
+def test_after_an_emergency_stop_nothing_moves_until_it_is_released(kept):
+    kept.enter("/estop")
+    kept.wait_for("EMERGENCY STOP: /release lets it move again")
+    kept.enter("turn left 20 degrees")
+    kept.wait_for("✗")
+    kept.enter("/release")
+    kept.wait_for("The emergency stop is released")
+    kept.enter("turn left 20 degrees")
+    kept.wait_for(DONE)
+
+
+def test_a_paste_of_a_hundred_kilobytes_and_weird_bytes_do_no_harm(kept):
+    kept.type(b"\x1b[200~" + b"forward 1 m, " * 8000 + b"\x1b[201~")
+    kept.wait_for("forward 1 m, forward")
+    kept.type("\r")
+    kept.wait_for("too long", timeout_s=60)
+    kept.type(b"\xff\xfe\x00\xc3\x28 \xed\xa0\x80 \x07 \xf0\x9f\r")
+    kept.wait_for(r"\?")
+    kept.enter("turn left 20 degrees")
+    kept.wait_for(DONE)
+
+
+def test_a_paste_is_done_line_by_line_and_its_stop_does_not_wait_for_enter(kept):
+    kept.type(b"\x1b[200~rotate left 10 degrees\rspin right 20 degrees\r\x1b[201~")
+    kept.wait_for("› rotate left 10 degrees\n  spin right 20 degrees")
+    assert DONE not in kept.text
+    kept.type("\r")
+    kept.wait_for(DONE, times=2)
+    kept.enter("forward 2 m")
+    kept.wait_for(MOVING)
+    kept.type(b"\x1b[200~turn left\nstop\n\x1b[201~")
+    kept.wait_for(STOPPED)
+    kept.enter("")
+
+
+def test_lines_that_a_terminal_pastes_as_keys_do_not_replace_each_other(kept):
+    kept.type("rotate left 10 degrees\rspin right 20 degrees\r")
+    kept.wait_for(DONE, times=2)
+    kept.type("forward 2 m\rstop\rturn left 10 degrees\r")
+    kept.wait_for("this is not done: “forward 2 m”")
+    kept.wait_for(DONE, times=3)
+    assert "2.00 m," not in kept.text
+
+
+def test_a_window_can_be_made_smaller_and_larger_while_the_robot_moves(kept):
+    kept.enter("forward 1 m")
+    kept.wait_for(MOVING)
+    for rows, columns in ((12, 44), (30, 120)):
+        kept.resize(rows, columns)
+        kept.wait_for(MOVING)
+    kept.wait_for(DONE)
+
+
+def test_who_speaks_chinese_is_answered_in_chinese(kept):
+    kept.enter("前进0.4米")
+    kept.wait_for(r"计划  0\.40 米")
+    kept.wait_for("行驶中")
+    kept.wait_for(r"现在在 \(-?\d\.\d\d, ")
+    kept.enter("/mapp")
+    kept.wait_for("您是不是想用 /map")
 
 
 def test_ctrl_c_twice_leaves(chat):
@@ -82,123 +204,17 @@ def test_a_goodbye_in_words_is_answered_once(chat):
     assert "Bye." not in chat.text
 
 
-def test_ctrl_d_lets_the_robot_finish_first(chat):
+def test_ctrl_d_lets_the_robot_finish_first_and_the_next_console_remembers_what_was_said(chat, tmp_path):
     chat.enter("forward 0.4 m")
     chat.wait_for(MOVING)
     chat.control("d")
     chat.wait_for("finishes what it was told")
     assert chat.wait_for_end() == 0
     assert DONE in chat.text
-
-
-def test_an_unknown_command_gets_the_nearest_one(chat):
-    chat.enter("/hlep")
-    chat.wait_for("There is no /hlep; did you mean /help?")
-    chat.enter("/qqqqqqq")
-    chat.wait_for("There is no /qqqqqqq. /help lists the commands.")
-
-
-def test_the_commands_show_robot_world_and_plan(chat, tmp_path):
-    chat.enter("/plan")
-    chat.wait_for("There is no plan yet")
-    chat.enter("/robot")
-    chat.wait_for("highest speed +1 m/s")
-    chat.enter("/world")
-    chat.wait_for("•kitchen")
-    chat.enter("turn left 20 degrees")
-    chat.wait_for(DONE)
-    chat.enter(f"/save-plan {tmp_path / 'mine.plan'}")
-    chat.wait_for("The plan is saved in")
-    assert (tmp_path / "mine.plan").read_text() == "turn left 20 deg\n"
-    chat.enter(f"/run-plan {tmp_path / 'mine.plan'}")
-    chat.wait_for(r"now at .* (39|4[01])°")
-    chat.enter("/run-plan")
-    chat.wait_for(r"Which plan\? /run-plan FILE")
-
-
-def test_after_an_emergency_stop_nothing_moves_until_it_is_released(chat):
-    chat.enter("/estop")
-    chat.wait_for("EMERGENCY STOP: /release lets it move again")
-    chat.enter("turn left 20 degrees")
-    chat.wait_for("✗")
-    chat.enter("/release")
-    chat.wait_for("The emergency stop is released")
-    chat.enter("turn left 20 degrees")
-    chat.wait_for(DONE)
-
-
-def test_tab_completes_commands_and_places(chat):
-    chat.type("/rel")
-    chat.wait_for("/release  release the emergency stop")
-    chat.type("\t")
-    chat.wait_for("› /release")
-    chat.type("\r")
-    chat.wait_for("The emergency stop is released")
-    chat.type("go to the kitc\t")
-    chat.wait_for("› go to the kitchen")
-
-
-def test_who_speaks_chinese_is_answered_in_chinese(chat):
-    chat.enter("前进0.4米")
-    chat.wait_for(r"计划  0\.40 米")
-    chat.wait_for("行驶中")
-    chat.wait_for(r"现在在 \(0\.[34]\d, ")
-    chat.enter("/mapp")
-    chat.wait_for("您是不是想用 /map")
-
-
-def test_what_was_said_is_remembered_for_the_next_time(tmp_path):
-    with console(tmp_path) as first:
-        first.wait_for(STANDING)
-        first.enter("turn left 20 degrees")
-        first.wait_for(DONE)
-        first.control("d")
-        assert first.wait_for_end() == 0
     with console(tmp_path) as second:
         second.wait_for(STANDING)
         second.type("\x1b[A")
-        second.wait_for("› turn left 20 degrees")
-
-
-def test_a_paste_of_a_hundred_kilobytes_and_weird_bytes_do_no_harm(chat):
-    chat.type(b"\x1b[200~" + b"forward 1 m, " * 8000 + b"\x1b[201~")
-    chat.wait_for("forward 1 m, forward")
-    chat.type("\r")
-    chat.wait_for("too long", timeout_s=60)
-    chat.type(b"\xff\xfe\x00\xc3\x28 \xed\xa0\x80 \x07 \xf0\x9f\r")
-    chat.wait_for(r"\?")
-    chat.enter("turn left 20 degrees")
-    chat.wait_for(DONE)
-
-
-def test_a_paste_is_done_line_by_line_and_its_stop_does_not_wait_for_enter(chat):
-    chat.type(b"\x1b[200~rotate left 10 degrees\rspin right 20 degrees\r\x1b[201~")
-    chat.wait_for("› rotate left 10 degrees\n  spin right 20 degrees")
-    assert DONE not in chat.text
-    chat.type("\r")
-    chat.wait_for(DONE, times=2)
-    chat.enter("forward 2 m")
-    chat.wait_for(MOVING)
-    chat.type(b"\x1b[200~turn left\nstop\n\x1b[201~")
-    chat.wait_for(STOPPED)
-
-
-def test_lines_that_a_terminal_pastes_as_keys_do_not_replace_each_other(chat):
-    chat.type("rotate left 10 degrees\rspin right 20 degrees\r")
-    chat.wait_for(DONE, times=2)
-    chat.type("forward 2 m\rstop\rturn left 10 degrees\r")
-    chat.wait_for("this is not done: “forward 2 m”")
-    chat.wait_for(DONE, times=3)
-    assert "2.00 m," not in chat.text
-
-
-def test_a_window_can_be_made_smaller_and_larger_while_the_robot_moves(chat):
-    chat.enter("forward 1 m")
-    chat.wait_for(MOVING)
-    for rows, columns in ((12, 44), (30, 120)):
-        chat.resize(rows, columns)
-        chat.wait_for(MOVING)
-    chat.wait_for(DONE)
+        second.wait_for("› forward 0.4 m")
 
 
 def test_the_end_of_motion_is_told_and_ends_the_talk(chat):
@@ -237,11 +253,7 @@ def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
         chat.wait_for("Do it?", times=3)
         chat.enter("y")
         chat.wait_for(r"✓ .*\s+now at \(0\.00, -?0\.00\) (19|20|21)°")
-
-
-def test_an_edited_plan_with_a_mistake_is_asked_about_as_it_was(tmp_path):
-    with console(tmp_path, "--approve") as chat:
-        chat.wait_for(STANDING)
+        chat.forget()  # a plan edited wrongly is asked about as it was
         chat.enter("forward 0.3 m")
         chat.wait_for("Do it?")
         chat.enter("e")
@@ -279,28 +291,23 @@ def test_ctrl_z_stops_the_robot_and_really_suspends(tmp_path):
         shell.wait_for(DONE)
 
 
-def test_a_dumb_terminal_gets_plain_lines(tmp_path):
+def test_a_dumb_terminal_gets_plain_lines_and_does_a_paste_line_by_line(tmp_path):
     with console(tmp_path, environment={"TERM": "dumb"}) as chat:
         chat.wait_for("/help")
         chat.enter("forward 0.4 m")
         chat.wait_for(r"✓ .*\s+now at \(0\.[34]\d, ")
+        chat.type("rotate left 10 degrees\nspin right 20 degrees\n")
+        chat.wait_for(DONE, times=3)
+        chat.type("forward 2 m\nstop\nturn left 10 degrees\n")
+        chat.wait_for("this is not done: “forward 2 m”")
+        chat.wait_for(DONE, times=4)
         chat.enter("forward 2 m")
         chat.wait_for(r"2\.00 m, \d\.\d s\s+1  drive 2 m")
         chat.control("c")
-        chat.wait_for(STOPPED)
+        chat.wait_for(STOPPED, times=2)
         chat.control("c")
         assert chat.wait_for_end() == 0
         assert b"\x1b" not in chat.raw
-
-
-def test_a_paste_into_a_dumb_terminal_is_done_line_by_line(tmp_path):
-    with console(tmp_path, environment={"TERM": "dumb"}) as chat:
-        chat.wait_for("/help")
-        chat.type("rotate left 10 degrees\nspin right 20 degrees\n")
-        chat.wait_for(DONE, times=2)
-        chat.type("forward 2 m\nstop\nturn left 10 degrees\n")
-        chat.wait_for("this is not done: “forward 2 m”")
-        chat.wait_for(DONE, times=3)
 
 
 def test_a_narrow_terminal_gets_plain_lines(tmp_path):

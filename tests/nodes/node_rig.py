@@ -157,6 +157,7 @@ class NodeRig:
         _, event = self.events.wait_for(
             lambda event: event["event"] == "result" and event["reply"].startswith(reply), since_s
         )
+        print("result:", event)  # pytest shows it where the test fails, with the reason
         return dict(event)
 
     def event(self, name: str, since_s: float = 0.0) -> dict[str, Any]:

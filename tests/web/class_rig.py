@@ -25,9 +25,9 @@ PUPILS = 3
 
 
 class RunningClass(TalkingProcess):
-    """`chatrobot web --class 3`, and those who open its pages."""
+    """`chatrobot web --class 3`, or of so many, and those who open its pages."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, count: int = PUPILS) -> None:
         self.folder = folder
         self._opened, self._dialled = contextlib.ExitStack(), contextlib.ExitStack()
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "PYTHONUNBUFFERED": "1"}
@@ -37,7 +37,7 @@ class RunningClass(TalkingProcess):
             "chatrobot",
             "web",
             "--class",
-            str(PUPILS),
+            str(count),
             "--no-open",
             "--port",
             "0",
@@ -50,8 +50,8 @@ class RunningClass(TalkingProcess):
         self.port, self.token = int(found[1]), found[2]
         self.heard = []
         paths = [*(folder / "chatrobot").glob("sim-*.wire")]
-        assert len(paths) == PUPILS
-        for path in sorted(paths):
+        assert len(paths) == count
+        for path in sorted(paths, key=lambda path: int(path.stem.rpartition("-")[2])):
             wire, ear = LocalWire(path), Heard()
             wire.subscribe("cmd_vel", TwistMessage, ear)
             self._opened.callback(wire.close)
