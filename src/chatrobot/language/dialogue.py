@@ -9,7 +9,7 @@ from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
-from chatrobot.language.last_motion import check_answers_nothing, steps_of
+from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
@@ -72,9 +72,12 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if _is_another_kind(whole, context):
         return None
     if is_change(whole):
-        if is_correction(context.dialogue.last_motion):
+        last = motion_meant(context.dialogue)
+        only_again = whole.flags == {"again"} and not (whole.q or whole.moves or whole.pace)
+        undo_again = last is not context.dialogue.last_motion and only_again and context.dialogue.ledger.done
+        if is_correction(last) or undo_again:
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
-        return changed(steps_of(context.dialogue.last_motion), whole, pace)
+        return changed(steps_of(last), whole, pace)
     return None
 
 

@@ -14,7 +14,13 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import flipped, inverse, is_sideways
-from chatrobot.language.last_motion import said_unit_m, unit_driven_m
+from chatrobot.language.last_motion import (
+    in_unit_before,
+    motion_meant,
+    said_unit_m,
+    unit_driven_m,
+    within_unit_before,
+)
 from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom, quantity
@@ -36,12 +42,13 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     Raises:
         Unclear: where two readings are as likely.
     """
-    last = dialogue.last_motion
-    if last is None or last.plan is None or is_correction(last):
-        return None
-    edit, steps = read_edit(atoms), list(last.plan.steps)
+    edit = read_edit(atoms)
     if edit is None:
         return None
+    last = dialogue.last_motion if "overshot" in edit.flags else motion_meant(dialogue)
+    if last is None or last.plan is None or is_correction(last):
+        return None
+    steps = list(last.plan.steps)
     aslant = {f"back_{side}": side for side in SIDES if _came_from(steps, side)}
     if edit.way in aslant:  # `slide back right`, after a slide to the left
         edit.way, edit.returns = aslant[edit.way], True
@@ -64,7 +71,7 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         if edit.way and edit.amount("number"):
             return None
         unit_m = said_unit_m(last.text) or 0.0
-        edit.amounts = [in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [within_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
     return _applied(edit, steps)
 
 
@@ -74,17 +81,6 @@ def _came_from(steps: list[Step], side: str) -> bool:
     if isinstance(step, Turn):
         return step.left != (side == "left")
     return step is not None and is_sideways(step) and _heads_left(step) != (side == "left")
-
-
-def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
-    """`10 too many`: degrees after a turn, else the unit of the drive."""
-    unit_m = unit_m if isinstance(step, Drive) else 0.0
-    if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:
-        return quantity("time", amount.number, amount.text)
-    if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
-        return amount
-    name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
-    return quantity(name, amount.number * factor, amount.text)
 
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
