@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.language.changes import a_bit_of, changed, is_change
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
@@ -14,10 +14,11 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.repeats import repeats_all
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
-from chatrobot.plan.steps import Face, Go, Step, Turn, Wait
+from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
 _COUNTED = frozenset({"both", "two", "three", "four", "five", "six", "2", "3", "4", "5", "6"})
@@ -75,7 +76,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         last = motion_meant(context.dialogue)
         only_again = whole.flags == {"again"} and not (whole.q or whole.moves or whole.pace)
         undo_again = last is not context.dialogue.last_motion and only_again and context.dialogue.ledger.done
-        if is_correction(last) or undo_again:
+        parts = repeats_all(whole) and "again" in whole.flags and _is_one_of_several(context.dialogue)
+        if is_correction(last) or undo_again or parts:
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(last), whole, pace)
     return None
@@ -100,6 +102,12 @@ def _is_another_kind(whole: Frame, context: Context) -> bool:
     turned = last is not None and last.plan is not None and all(isinstance(s, Turn) for s in last.plan.steps)
     told = "length" in whole.q and whole.direction in ("forward", "back") and not whole.rot
     return turned and told and "again" in whole.flags and not {"other_way", "more"} & whole.flags
+
+
+def _is_one_of_several(dialogue: Dialogue) -> bool:
+    """Whether `the whole thing again` may mean more than the last motion, which was one of several."""
+    plans = [turn.plan for turn in dialogue.turns if turn.plan is not None]
+    return len(plans) > 1 and len(plans[-1].steps) == 1 and isinstance(plans[-1].steps[0], (Drive, Turn))
 
 
 def _only_turned(context: Context) -> bool:

@@ -15,7 +15,6 @@ from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import flipped, inverse, is_sideways
 from chatrobot.language.last_motion import (
-    in_unit_before,
     motion_meant,
     said_unit_m,
     unit_driven_m,
@@ -23,6 +22,7 @@ from chatrobot.language.last_motion import (
 )
 from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.shape_sides import rest_of_shape
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
@@ -64,14 +64,16 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         edit.flags.discard("same_unit")
         units = (unit_driven_m(turn) for turn in reversed(dialogue.turns))
         unit_m = next((unit for unit in units if unit), 0.0)
-        edit.amounts = [in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 10.0) for amount in edit.amounts]
         if edit.amount("number"):
             return None
+        if edit.way or "other_way" in edit.flags:  # `now 45 the other way`
+            return _resized_on_way(edit, steps[-1])
     if "overshot" in edit.flags:
         if edit.way and edit.amount("number"):
             return None
         unit_m = said_unit_m(last.text) or 0.0
-        edit.amounts = [within_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 1.0) for amount in edit.amounts]
     return _applied(edit, steps)
 
 
@@ -83,6 +85,19 @@ def _came_from(steps: list[Step], side: str) -> bool:
     return step is not None and is_sideways(step) and _heads_left(step) != (side == "left")
 
 
+def _resized_on_way(edit: Edit, step: Step) -> list[Step] | None:
+    """The motion before with another amount, the way that is named, or the opposite one."""
+    flags, way = edit.flags - {"other_way"}, edit.way
+    found = _applied(dataclasses.replace(edit, flags=flags, way=""), [step])
+    if not found or not isinstance(step, (Drive, Turn)) or (way and flags != edit.flags):
+        return None
+    if not way:
+        return inverse(found)
+    if isinstance(step, Drive):
+        return [dataclasses.replace(found[0], direction_rad=DIRECTIONS[way])] if way in DIRECTIONS else None
+    return [dataclasses.replace(found[0], left=way == "left")] if way in SIDES else None
+
+
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     flags, scale = edit.flags, edit.amount(*SCALES)
     if flags & ROUND:
@@ -90,9 +105,9 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
             return None
         if not isinstance(steps[-1], Arc):
             raise Unclear("nothing_before")
-        return _rest_of_shape(steps, edit.nth)
+        return rest_of_shape(steps, edit.nth)
     if "complete" in flags:
-        return _rest_of_shape(steps, edit.nth)
+        return rest_of_shape(steps, edit.nth)
     if "leave_out" in flags:
         return _without(steps, edit)
     if "reversed" in flags:
@@ -317,20 +332,3 @@ def _mirrored(steps: list[Step], left: bool) -> list[Step] | None:
         return None
     flip = turning[0].left != left
     return [flipped(step) for step in steps] if flip else list(steps)
-
-
-def _rest_of_shape(steps: list[Step], sides: int) -> list[Step] | None:
-    """What is missing to a whole circle, or to a polygon of equal sides and turns; `sides` if it was named by them."""
-    last = steps[-1]
-    if len(steps) == 1 and isinstance(last, Arc) and not sides:
-        left = 2 * math.pi - last.angle_rad
-        return [dataclasses.replace(last, angle_rad=left)] if left > 1e-3 else None
-    if len(steps) == 1 and isinstance(last, Turn) and last.angle_rad and not sides:
-        times = round(2 * math.pi / last.angle_rad)
-        return [last] * (times - 1) or None if abs(times * last.angle_rad - 2 * math.pi) < 1e-6 else None
-    side, turn = steps[:2] if len(steps) > 1 else (None, None)
-    if not isinstance(side, Drive) or not isinstance(turn, Turn) or not turn.angle_rad:
-        return None
-    whole = [side, turn] * (sides or round(2 * math.pi / turn.angle_rad))
-    fits = abs(len(whole) / 2 * turn.angle_rad - 2 * math.pi) < 1e-6 and whole[: len(steps)] == steps
-    return whole[len(steps) :] or None if fits else None

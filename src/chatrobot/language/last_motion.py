@@ -120,14 +120,14 @@ def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
     return quantity(name, amount.number * factor, amount.text)
 
 
-def within_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
-    """The same of what went too far: no more than there was.
+def within_unit_before(amount: Atom, step: Step, unit_m: float, most: float) -> Atom:
+    """The same, where it comes to at most so many times what there was.
 
     Raises:
         Unclear: `too long by 50`, after 3 m.
     """
     meant = in_unit_before(amount, step, unit_m)
-    if meant is not amount and meant.number > _extent(step):
+    if meant is not amount and meant.number > most * _extent(step):
         raise Unclear("no_unit", amount.text)
     return meant
 
