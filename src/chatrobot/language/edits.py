@@ -88,14 +88,15 @@ def _came_from(steps: list[Step], side: str) -> bool:
 def _resized_on_way(edit: Edit, step: Step) -> list[Step] | None:
     """The motion before with another amount, the way that is named, or the opposite one."""
     flags, way = edit.flags - {"other_way"}, edit.way
-    found = _applied(dataclasses.replace(edit, flags=flags, way=""), [step])
-    if not found or not isinstance(step, (Drive, Turn)) or (way and flags != edit.flags):
+    found = _applied(dataclasses.replace(edit, flags=flags, way=""), [step]) or []
+    if not found or (way and flags != edit.flags):
         return None
     if not way:
         return inverse(found)
-    if isinstance(step, Drive):
-        return [dataclasses.replace(found[0], direction_rad=DIRECTIONS[way])] if way in DIRECTIONS else None
-    return [dataclasses.replace(found[0], left=way == "left")] if way in SIDES else None
+    [new] = found
+    if isinstance(new, Drive) and way in DIRECTIONS:
+        return [dataclasses.replace(new, direction_rad=DIRECTIONS[way])]
+    return [dataclasses.replace(new, left=way == "left")] if isinstance(new, Turn) and way in SIDES else None
 
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:

@@ -1,4 +1,4 @@
-"""The sides of a shape: told in a clause of their own (`a hexagon with 30 cm sides, turn right`, 拐角都往右拐), or left to drive."""
+"""The sides of a shape: told in a clause of their own (`a hexagon with 30 cm sides, turn right`), or left to drive."""
 
 from __future__ import annotations
 
