@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.frames import Frame
@@ -18,7 +17,7 @@ from chatrobot.language.numbers import is_chinese
 from chatrobot.language.repeats import repeats_all
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import NEAR_M, NEAR_RAD, PACES, Walked, all_taken_back, last_two, redone, undone
+from chatrobot.language.undo import NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
 from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
@@ -51,10 +50,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         if set(whole.q) - {"rate", "percent", "faster"}:
             raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
-        yaw_rad = context.dialogue.start_pose.yaw_rad
-        if not whole.verb and abs(wrap_angle(context.state.pose.yaw_rad - yaw_rad)) < NEAR_RAD:
-            raise Unclear("unclear_motion", whole.text)  # `as you were`, after a drive
-        return [Face(yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
+        return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:

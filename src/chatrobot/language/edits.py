@@ -28,7 +28,7 @@ from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _TAKERS: dict[str, tuple[type[Step], ...]] = {
-    "length": (Drive,), "angle": (Turn,), "turns": (Turn,), "time": (Drive, Turn, Wait),
+    "length": (Drive,), "angle": (Turn, Arc), "turns": (Turn, Arc), "time": (Drive, Turn, Wait),
     "radius": (Arc,), "speed": (Drive, Arc), "rate": (Turn,),
 }  # fmt: skip
 """What a new amount may be for."""
@@ -270,6 +270,8 @@ def _changed_to(step: Step, role: str, number: float) -> Step:
         return dataclasses.replace(step, duration_s=number, distance_m=None)
     if role == "time" and isinstance(step, Turn):
         return dataclasses.replace(step, duration_s=number, angle_rad=None)
+    if role in ("angle", "turns") and isinstance(step, Arc):
+        return dataclasses.replace(step, angle_rad=number)
     if role == "radius" and isinstance(step, Arc):
         return dataclasses.replace(step, radius_m=number)
     return Wait(number) if isinstance(step, Wait) else _with_value(step, number)

@@ -225,7 +225,8 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
 
 def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
     """What is counted: the steps of that kind of the last motion, or the turns that moved."""
-    turns = [list(turn.plan.steps) for turn in dialogue.turns if turn.plan is not None]
+    told = [turn for turn in dialogue.turns if turn.plan is not None and turn.walk is None]
+    turns = [list(turn.plan.steps) for turn in told if turn.plan is not None] or [[]]
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
     return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
