@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context, Dialogue
+from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
 from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
@@ -17,7 +19,7 @@ from chatrobot.language.numbers import is_chinese
 from chatrobot.language.repeats import repeats_all
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
+from chatrobot.language.undo import FAR_RAD, NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
 from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
@@ -50,7 +52,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         if set(whole.q) - {"rate", "percent", "faster"}:
             raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
-        return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
+        return [Face(_heading_before(whole, context.dialogue), frame="odom", rate_radps=pace.rate(whole))]
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
@@ -81,6 +83,25 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(last), whole, pace)
     return None
+
+
+def _heading_before(whole: Frame, dialogue: Dialogue) -> float:
+    """The heading of the start, or the one before the last turn where that is asked for: `your previous heading`.
+
+    Raises:
+        Unclear: `turn back` may mean either.
+    """
+    start_rad, table = dialogue.start_pose.yaw_rad, load_table("en", "facing")
+    said = {word for text in whole.texts for word in text.split()}
+    off = (
+        (t.start_pose.yaw_rad, wrap_angle(t.end_pose.yaw_rad - t.start_pose.yaw_rad)) for t in dialogue.turns
+    )
+    before_rad = next((yaw for yaw, by in reversed([*off]) if abs(by) > FAR_RAD / 4), start_rad)
+    if is_chinese(whole.text) or said & set(table["of_the_start"]):
+        return start_rad
+    if said & set(table["of_before"]) or abs(wrap_angle(before_rad - start_rad)) < FAR_RAD / 4:
+        return before_rad
+    raise Unclear("unclear_motion", " ".join(dict.fromkeys(whole.texts)))
 
 
 def _check_not_counted(whole: Frame, frames: Sequence[Frame]) -> None:
