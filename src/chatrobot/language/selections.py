@@ -32,6 +32,8 @@ _KINDS: dict[str, tuple[type[Step], ...]] = {
     "wait": (Wait,),
 }
 
+_WITHOUT = ("without", "without_nth", "without_only")
+
 
 def selected(
     plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
@@ -93,7 +95,7 @@ def part_of_before(
 
 def wants_part(plain: str, language: str) -> bool:
     """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
-    names = ("forms", "without", "without_nth", "resized", "listed", "further")
+    names = ("forms", *_WITHOUT, "resized", "listed", "further")
     return any(form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name))
 
 
@@ -104,7 +106,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         Unclear: there is no such part, there are several, or nothing would be left.
     """
     last = dialogue.last_motion
-    forms = *_forms(language, "without"), *_forms(language, "without_nth")
+    forms = [form for name in _WITHOUT for form in _forms(language, name)]
     found = next(filter(None, (form.fullmatch(plain) for form in forms)), None)
     if last is None or last.plan is None or found is None:
         return None
