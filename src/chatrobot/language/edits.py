@@ -152,6 +152,8 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return None
     if len(edit.amounts) > 1 or (len(steps) > 1 and len({type(step) for step in steps}) == 1):
         return None
+    if scale is not None and len(steps) > 1:
+        raise Unclear("unclear_motion", scale.text)  # half of which step?
     if edit.way in SIDES and (isinstance(step, Turn) or is_sideways(step)) and "same_amount" in edit.flags:
         return _to_side([step], edit.way == "left", is_named=True, goes_on=True)
     if edit.way not in ("", "back") or (edit.slides and not is_sideways(step)):
