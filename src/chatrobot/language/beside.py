@@ -118,9 +118,11 @@ def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
 
 
 def refers(clause: Clause) -> bool:
-    """Whether a clause asks for the motion before and nothing else: `undo that`, `once more please`."""
+    """Whether a clause asks for the motion before, and so much: `undo that`, `45 degrees the other way please`."""
     known = lexicon().words
-    said = [known.get(tuple(sign.text.split("_"))) for sign in clause.signs if sign.moves]
+    amounts = _NUMBERS | _UNITS
+    moving = [sign for sign in clause.signs if sign.moves and sign.label not in amounts]
+    said = [known.get(tuple(sign.text.split("_"))) for sign in moving]
     beside = {sign.label for sign in clause.signs if not sign.moves}
     return bool(said) and all(meaning in _REFERENCES for meaning in said) and beside <= _POLITE
 

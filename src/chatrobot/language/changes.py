@@ -52,8 +52,10 @@ def _only_points_back(whole: Frame) -> bool:
     """`turn the other way`, `go again`, `turn half of that`: a verb that names no motion of its own."""
     if {"again", "more"} <= whole.flags and whole.verb in (*GO, *TURN) and not whole.direction:
         return True  # `the same but go 20 cm further`
-    if whole.has_extent or whole.verb not in (*GO, "turn", "spin", "curve"):
+    if whole.verb not in (*GO, "turn", "spin", "curve"):
         return False
+    if whole.has_extent:  # `turn 45 degrees the other way`
+        return "other_way" in whole.flags and not (whole.direction or whole.rot)
     if whole.verb in (*GO, "turn"):
         again = "again" in whole.flags and (not whole.direction or whole.verb == "go")
         if again or ("scale" in whole.q and not whole.direction):

@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.changes import a_bit_of, changed, is_change
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Dialogue
+from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import Frame
 from chatrobot.language.inverse import inverse
-from chatrobot.language.last_motion import check_answers_nothing, steps_of
+from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.repeats import repeats_all
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
-from chatrobot.plan.steps import Face, Go, Step, Turn, Wait
+from chatrobot.language.undo import FAR_RAD, NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
+from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
 _COUNTED = frozenset({"both", "two", "three", "four", "five", "six", "2", "3", "4", "5", "6"})
@@ -49,7 +52,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
         if set(whole.q) - {"rate", "percent", "faster"}:
             raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
-        return [Face(context.dialogue.start_pose.yaw_rad, frame="odom", rate_radps=pace.rate(whole))]
+        return [Face(_heading_before(whole, context.dialogue), frame="odom", rate_radps=pace.rate(whole))]
     if whole.verb == "face" and "to_start" in whole.flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
     if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
@@ -72,10 +75,33 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if _is_another_kind(whole, context):
         return None
     if is_change(whole):
-        if is_correction(context.dialogue.last_motion):
+        last = motion_meant(context.dialogue)
+        only_again = whole.flags == {"again"} and not (whole.q or whole.moves or whole.pace)
+        undo_again = last is not context.dialogue.last_motion and only_again and context.dialogue.ledger.done
+        parts = repeats_all(whole) and "again" in whole.flags and _is_one_of_several(context.dialogue)
+        if is_correction(last) or undo_again or parts:
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
-        return changed(steps_of(context.dialogue.last_motion), whole, pace)
+        return changed(steps_of(last), whole, pace)
     return None
+
+
+def _heading_before(whole: Frame, dialogue: Dialogue) -> float:
+    """The heading of the start, or the one before the last turn where that is asked for: `your previous heading`.
+
+    Raises:
+        Unclear: `turn back` may mean either.
+    """
+    start_rad, table = dialogue.start_pose.yaw_rad, load_table("en", "facing")
+    said = {word for text in whole.texts for word in text.split()}
+    off = (
+        (t.start_pose.yaw_rad, wrap_angle(t.end_pose.yaw_rad - t.start_pose.yaw_rad)) for t in dialogue.turns
+    )
+    before_rad = next((yaw for yaw, by in reversed([*off]) if abs(by) > FAR_RAD / 4), start_rad)
+    if is_chinese(whole.text) or said & set(table["of_the_start"]):
+        return start_rad
+    if said & set(table["of_before"]) or abs(wrap_angle(before_rad - start_rad)) < FAR_RAD / 4:
+        return before_rad
+    raise Unclear("unclear_motion", " ".join(dict.fromkeys(whole.texts)))
 
 
 def _check_not_counted(whole: Frame, frames: Sequence[Frame]) -> None:
@@ -97,6 +123,12 @@ def _is_another_kind(whole: Frame, context: Context) -> bool:
     turned = last is not None and last.plan is not None and all(isinstance(s, Turn) for s in last.plan.steps)
     told = "length" in whole.q and whole.direction in ("forward", "back") and not whole.rot
     return turned and told and "again" in whole.flags and not {"other_way", "more"} & whole.flags
+
+
+def _is_one_of_several(dialogue: Dialogue) -> bool:
+    """Whether `the whole thing again` may mean more than the last motion, which was one of several."""
+    plans = [turn.plan for turn in dialogue.turns if turn.plan is not None]
+    return len(plans) > 1 and len(plans[-1].steps) == 1 and isinstance(plans[-1].steps[0], (Drive, Turn))
 
 
 def _only_turned(context: Context) -> bool:

@@ -14,15 +14,21 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import flipped, inverse, is_sideways
-from chatrobot.language.last_motion import said_unit_m, unit_driven_m
+from chatrobot.language.last_motion import (
+    motion_meant,
+    said_unit_m,
+    unit_driven_m,
+    within_unit_before,
+)
 from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.shape_sides import rest_of_shape
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _TAKERS: dict[str, tuple[type[Step], ...]] = {
-    "length": (Drive,), "angle": (Turn,), "turns": (Turn,), "time": (Drive, Turn, Wait),
+    "length": (Drive,), "angle": (Turn, Arc), "turns": (Turn, Arc), "time": (Drive, Turn, Wait),
     "radius": (Arc,), "speed": (Drive, Arc), "rate": (Turn,),
 }  # fmt: skip
 """What a new amount may be for."""
@@ -36,12 +42,13 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     Raises:
         Unclear: where two readings are as likely.
     """
-    last = dialogue.last_motion
-    if last is None or last.plan is None or is_correction(last):
-        return None
-    edit, steps = read_edit(atoms), list(last.plan.steps)
+    edit = read_edit(atoms)
     if edit is None:
         return None
+    last = dialogue.last_motion if "overshot" in edit.flags else motion_meant(dialogue)
+    if last is None or last.plan is None or is_correction(last):
+        return None
+    steps = list(last.plan.steps)
     aslant = {f"back_{side}": side for side in SIDES if _came_from(steps, side)}
     if edit.way in aslant:  # `slide back right`, after a slide to the left
         edit.way, edit.returns = aslant[edit.way], True
@@ -57,14 +64,16 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         edit.flags.discard("same_unit")
         units = (unit_driven_m(turn) for turn in reversed(dialogue.turns))
         unit_m = next((unit for unit in units if unit), 0.0)
-        edit.amounts = [in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 10.0) for amount in edit.amounts]
         if edit.amount("number"):
             return None
+        if edit.way or "other_way" in edit.flags:  # `now 45 the other way`
+            return _resized_on_way(edit, steps[-1])
     if "overshot" in edit.flags:
         if edit.way and edit.amount("number"):
             return None
         unit_m = said_unit_m(last.text) or 0.0
-        edit.amounts = [in_unit_before(amount, steps[-1], unit_m) for amount in edit.amounts]
+        edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 1.0) for amount in edit.amounts]
     return _applied(edit, steps)
 
 
@@ -76,15 +85,18 @@ def _came_from(steps: list[Step], side: str) -> bool:
     return step is not None and is_sideways(step) and _heads_left(step) != (side == "left")
 
 
-def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
-    """`10 too many`: degrees after a turn, else the unit of the drive."""
-    unit_m = unit_m if isinstance(step, Drive) else 0.0
-    if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:
-        return quantity("time", amount.number, amount.text)
-    if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
-        return amount
-    name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
-    return quantity(name, amount.number * factor, amount.text)
+def _resized_on_way(edit: Edit, step: Step) -> list[Step] | None:
+    """The motion before with another amount, the way that is named, or the opposite one."""
+    flags, way = edit.flags - {"other_way"}, edit.way
+    found = _applied(dataclasses.replace(edit, flags=flags, way=""), [step]) or []
+    if not found or (way and flags != edit.flags):
+        return None
+    if not way:
+        return inverse(found)
+    [new] = found
+    if isinstance(new, Drive) and way in DIRECTIONS:
+        return [dataclasses.replace(new, direction_rad=DIRECTIONS[way])]
+    return [dataclasses.replace(new, left=way == "left")] if isinstance(new, Turn) and way in SIDES else None
 
 
 def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
@@ -94,9 +106,9 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
             return None
         if not isinstance(steps[-1], Arc):
             raise Unclear("nothing_before")
-        return _rest_of_shape(steps, edit.nth)
+        return rest_of_shape(steps, edit.nth)
     if "complete" in flags:
-        return _rest_of_shape(steps, edit.nth)
+        return rest_of_shape(steps, edit.nth)
     if "leave_out" in flags:
         return _without(steps, edit)
     if "reversed" in flags:
@@ -140,6 +152,8 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return None
     if len(edit.amounts) > 1 or (len(steps) > 1 and len({type(step) for step in steps}) == 1):
         return None
+    if scale is not None and len(steps) > 1:
+        raise Unclear("unclear_motion", scale.text)  # half of which step?
     if edit.way in SIDES and (isinstance(step, Turn) or is_sideways(step)) and "same_amount" in edit.flags:
         return _to_side([step], edit.way == "left", is_named=True, goes_on=True)
     if edit.way not in ("", "back") or (edit.slides and not is_sideways(step)):
@@ -258,6 +272,8 @@ def _changed_to(step: Step, role: str, number: float) -> Step:
         return dataclasses.replace(step, duration_s=number, distance_m=None)
     if role == "time" and isinstance(step, Turn):
         return dataclasses.replace(step, duration_s=number, angle_rad=None)
+    if role in ("angle", "turns") and isinstance(step, Arc):
+        return dataclasses.replace(step, angle_rad=number)
     if role == "radius" and isinstance(step, Arc):
         return dataclasses.replace(step, radius_m=number)
     return Wait(number) if isinstance(step, Wait) else _with_value(step, number)
@@ -321,20 +337,3 @@ def _mirrored(steps: list[Step], left: bool) -> list[Step] | None:
         return None
     flip = turning[0].left != left
     return [flipped(step) for step in steps] if flip else list(steps)
-
-
-def _rest_of_shape(steps: list[Step], sides: int) -> list[Step] | None:
-    """What is missing to a whole circle, or to a polygon of equal sides and turns; `sides` if it was named by them."""
-    last = steps[-1]
-    if len(steps) == 1 and isinstance(last, Arc) and not sides:
-        left = 2 * math.pi - last.angle_rad
-        return [dataclasses.replace(last, angle_rad=left)] if left > 1e-3 else None
-    if len(steps) == 1 and isinstance(last, Turn) and last.angle_rad and not sides:
-        times = round(2 * math.pi / last.angle_rad)
-        return [last] * (times - 1) or None if abs(times * last.angle_rad - 2 * math.pi) < 1e-6 else None
-    side, turn = steps[:2] if len(steps) > 1 else (None, None)
-    if not isinstance(side, Drive) or not isinstance(turn, Turn) or not turn.angle_rad:
-        return None
-    whole = [side, turn] * (sides or round(2 * math.pi / turn.angle_rad))
-    fits = abs(len(whole) / 2 * turn.angle_rad - 2 * math.pi) < 1e-6 and whole[: len(steps)] == steps
-    return whole[len(steps) :] or None if fits else None

@@ -6,7 +6,7 @@ import re
 from functools import cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import in_full, load_table
 
 UNNAMED = "★"
 """The name of a place that was remembered without one: it is what `that place` means."""
@@ -29,6 +29,7 @@ def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
 def _in_full(pattern: str, language: str) -> str:
     """A pattern with what a name may be, and what none is."""
     table = load_table(language, "dialogue_forms")
+    pattern = in_full(pattern, table.get("parts", {}))
     return pattern.replace("@no_place", table.get("no_place", "")).replace("@name", table.get("name", ""))
 
 

@@ -14,11 +14,11 @@ from chatrobot.language.data_files import form, forms, load_table
 from chatrobot.language.dialogue import refer
 from chatrobot.language.earlier_turns import answer_to_question
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import in_unit_before, resized
+from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.interpretation import Interpretation, asked_back
 from chatrobot.language.inverse import is_sideways
-from chatrobot.language.last_motion import said_unit_m
+from chatrobot.language.last_motion import in_unit_before, said_unit_m
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.normalise import normalise

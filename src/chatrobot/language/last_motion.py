@@ -16,7 +16,7 @@ from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _LEAST_SIDES = 3
 """Fewer drives than that draw no shape."""
@@ -54,6 +54,37 @@ def unit_driven_m(record: TurnRecord) -> float | None:
     return next((unit for unit in _UNITS_M if math.isclose(unit, driven, rel_tol=1e-6)), None)
 
 
+def motion_meant(dialogue: Dialogue) -> TurnRecord | None:
+    """The last motion; after an undo the one that was undone: `undo that; now the same, but 50 cm`.
+
+    Raises:
+        Unclear: several turns were undone at once.
+    """
+    last = dialogue.last_motion
+    if last is None or last.walk is None or last.walk.kind != "undo":
+        return last
+    done: list[TurnRecord] = []
+    undone: list[TurnRecord] = []
+    for turn in dialogue.turns:
+        if turn.walk is not None and turn.walk.kind == "undo":
+            undone = done[-turn.walk.count :]
+            del done[-turn.walk.count :]
+        elif turn.moved:
+            done.append(turn)
+    if len(undone) != 1 or undone[0].plan is None:
+        raise Unclear("unclear_motion", last.text)
+    return undone[0]
+
+
+def speeds_said(dialogue: Dialogue) -> tuple[float | None, float | None]:
+    """The speed, m/s, and the rate, rad/s, that were said of the last motion; None where it had the usual one."""
+    last = dialogue.last_motion
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    speeds = [step.speed_mps for step in steps if isinstance(step, (Drive, Arc)) and step.speed_mps]
+    rates = [step.rate_radps for step in steps if isinstance(step, Turn) and step.rate_radps]
+    return speeds[-1] if speeds else None, rates[-1] if rates else None
+
+
 def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     """A lone amount, or a lone side, goes on after a motion that said its own; else nobody can tell.
 
@@ -72,8 +103,39 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     fits = isinstance(step, Drive) if "length" in sizes else isinstance(step, Turn) and sizes
     size_open = fits and not way and not said & set(EXTENTS)
     side_open = isinstance(step, Turn) and way in SIDES and not sizes and not said & {"dir", "rot"}
-    if (size_open and "number" not in said) or (side_open and "uturn" not in said):
+    told_rad = step.angle_rad if isinstance(step, Turn) and said & {*EXTENTS, "number"} else None
+    other_open = not sizes and way in SIDES and told_rad not in (None, math.pi / 2)
+    if (size_open and "number" not in said) or (side_open and "uturn" not in said) or other_open:
         raise Unclear("unclear_motion", frame.text)
+
+
+def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
+    """`10 too many`: degrees after a turn, else the unit of the drive."""
+    unit_m = unit_m if isinstance(step, Drive) else 0.0
+    if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:
+        return quantity("time", amount.number, amount.text)
+    if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
+        return amount
+    name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
+    return quantity(name, amount.number * factor, amount.text)
+
+
+def within_unit_before(amount: Atom, step: Step, unit_m: float, most: float) -> Atom:
+    """The same, where it comes to at most so many times what there was.
+
+    Raises:
+        Unclear: `too long by 50`, after 3 m.
+    """
+    meant = in_unit_before(amount, step, unit_m)
+    if meant is not amount and meant.number > most * _extent(step):
+        raise Unclear("no_unit", amount.text)
+    return meant
+
+
+def _extent(step: Step) -> float:
+    """How far a step drives, how long it lasts, or how much it turns."""
+    sizes = (getattr(step, name, None) for name in ("distance_m", "duration_s", "angle_rad"))
+    return next((float(size) for size in sizes if size), math.inf)
 
 
 def _atoms(text: str) -> list[Atom]:

@@ -17,18 +17,23 @@ SLOW, FAST = 0.5, 1.7
 
 @dataclass(frozen=True)
 class Pace:
-    """The robot's limits and what counts as usual in this dialogue. None: the profile's default, unsaid."""
+    """The robot's limits and what counts as usual in this dialogue. None: the profile's default, unsaid.
+
+    `before_mps` and `before_radps` were said of the last motion: `another metre at half that speed`.
+    """
 
     profile: RobotProfile
     speed_mps: float | None = None
     rate_radps: float | None = None
+    before_mps: float | None = None
+    before_radps: float | None = None
 
     def speed(self, frame: Frame) -> float | None:
         """The linear speed a frame asks for, m/s; None where it says nothing."""
         limits, default = self.profile.limits, self.speed_mps or self.profile.defaults.speed_mps
         if "speed" in frame.q:
             return _positive(frame, "speed")
-        said = _relative(frame, default, limits.max_speed_mps)
+        said = _relative(frame, default, self.before_mps or default, limits.max_speed_mps)
         return said if said is not None else self.speed_mps
 
     def rate(self, frame: Frame) -> float | None:
@@ -36,7 +41,7 @@ class Pace:
         limits, default = self.profile.limits, self.rate_radps or self.profile.defaults.rate_radps
         if "rate" in frame.q:
             return _positive(frame, "rate")
-        said = _relative(frame, default, limits.max_rate_radps)
+        said = _relative(frame, default, self.before_radps or default, limits.max_rate_radps)
         return said if said is not None else self.rate_radps
 
 
@@ -47,15 +52,15 @@ def _positive(frame: Frame, name: str) -> float:
     return value
 
 
-def _relative(frame: Frame, default: float, maximum: float) -> float | None:
+def _relative(frame: Frame, default: float, before: float, maximum: float) -> float | None:
     if "percent" in frame.q:
         return _positive(frame, "percent") * maximum
     fold = frame.q.get("fold")
     if fold is not None and is_chinese(fold.text) and not re.search("速|快|平|默|正|车|原|半", fold.text):
         raise Unclear("unclear_motion", frame.text)  # twice what?
-    for name in ("fold", "faster"):
+    for name, usual in (("fold", default), ("faster", before)):
         if name in frame.q:
-            return _positive(frame, name) * default
+            return _positive(frame, name) * usual
     factors = {
         "slow": SLOW * default,
         "fast": min(FAST * default, maximum),

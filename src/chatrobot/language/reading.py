@@ -19,7 +19,7 @@ from chatrobot.language.ellipsis import with_rates
 from chatrobot.language.facts import with_defined_units, with_words_counted
 from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import LanguageCode
-from chatrobot.language.last_motion import state_after
+from chatrobot.language.last_motion import speeds_said, state_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import instead
@@ -69,7 +69,8 @@ class Reading:
     def pace(self) -> Pace:
         """The robot's limits, and the speeds that are usual in this dialogue."""
         dialogue = self.context.dialogue
-        return Pace(self.profile, dialogue.default_speed_mps, dialogue.default_rate_radps)
+        before = speeds_said(dialogue)
+        return Pace(self.profile, dialogue.default_speed_mps, dialogue.default_rate_radps, *before)
 
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""

@@ -32,6 +32,8 @@ _KINDS: dict[str, tuple[type[Step], ...]] = {
     "wait": (Wait,),
 }
 
+_WITHOUT = ("without", "without_nth", "without_only")
+
 
 def selected(
     plain: str, language: str, dialogue: Dialogue, atoms_of: Callable[[str], list[Atom]]
@@ -93,7 +95,7 @@ def part_of_before(
 
 def wants_part(plain: str, language: str) -> bool:
     """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
-    names = ("forms", "without", "without_nth", "resized", "listed", "further")
+    names = ("forms", *_WITHOUT, "resized", "listed", "further")
     return any(form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name))
 
 
@@ -104,7 +106,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         Unclear: there is no such part, there are several, or nothing would be left.
     """
     last = dialogue.last_motion
-    forms = *_forms(language, "without"), *_forms(language, "without_nth")
+    forms = [form for name in _WITHOUT for form in _forms(language, name)]
     found = next(filter(None, (form.fullmatch(plain) for form in forms)), None)
     if last is None or last.plan is None or found is None:
         return None
@@ -225,7 +227,8 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
 
 def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
     """What is counted: the steps of that kind of the last motion, or the turns that moved."""
-    turns = [list(turn.plan.steps) for turn in dialogue.turns if turn.plan is not None]
+    told = [turn for turn in dialogue.turns if turn.plan is not None and turn.walk is None]
+    turns = [list(turn.plan.steps) for turn in told if turn.plan is not None] or [[]]
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
     return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]

@@ -1,11 +1,14 @@
-"""The side of a shape told in a clause of its own: `a hexagon with 30 cm sides, turn right`, 拐角都往右拐."""
+"""The sides of a shape: told in a clause of their own (`a hexagon with 30 cm sides, turn right`), or left to drive."""
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from collections.abc import Sequence
 
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 _AT_CORNERS = frozenset({"after_each", "each", "all"})
 
@@ -39,3 +42,20 @@ def tells_side(parts: Sequence[Frame], rest: Sequence[Frame]) -> bool:
 
 def _side(frame: Frame) -> str:
     return frame.rot or frame.direction
+
+
+def rest_of_shape(steps: list[Step], sides: int) -> list[Step] | None:
+    """What is missing to a whole circle, or to a polygon of equal sides and turns; `sides` if it was named by them."""
+    last = steps[-1]
+    if len(steps) == 1 and isinstance(last, Arc) and not sides:
+        left = 2 * math.pi - last.angle_rad
+        return [dataclasses.replace(last, angle_rad=left)] if left > 1e-3 else None
+    if len(steps) == 1 and isinstance(last, Turn) and last.angle_rad and not sides:
+        times = round(2 * math.pi / last.angle_rad)
+        return [last] * (times - 1) or None if abs(times * last.angle_rad - 2 * math.pi) < 1e-6 else None
+    side, turn = steps[:2] if len(steps) > 1 else (None, None)
+    if not isinstance(side, Drive) or not isinstance(turn, Turn) or not turn.angle_rad:
+        return None
+    whole = [side, turn] * (sides or round(2 * math.pi / turn.angle_rad))
+    fits = abs(len(whole) / 2 * turn.angle_rad - 2 * math.pi) < 1e-6 and whole[: len(steps)] == steps
+    return whole[len(steps) :] or None if fits else None

@@ -6,7 +6,7 @@ import math
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
-from chatrobot.language.frames import Frame
+from chatrobot.language.frames import GO, Frame
 from chatrobot.language.last_motion import steps_of, unit_driven_m
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.manner import Pace
@@ -37,6 +37,8 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         if "again" in whole.flags:
             raise Unclear("contradiction", whole.text)  # more, or a total?
         missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
+        if missing <= 0.0 and whole.verb in GO:
+            raise Unclear("contradiction", whole.text)  # `go on to 1 m`, after 2 m
         if missing > 0.005:
             return [
                 Drive(
