@@ -247,7 +247,11 @@ def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
 def speed_for_all(plain: str, language: str) -> tuple[str, str] | None:
     """The speed that a normalised text tells for all it orders, and the rest of it; None where it tells none so."""
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "for_all"))), None)
-    return (found["speed"], found["rest"]) if found is not None else None
+    if found is None:
+        return None
+    rate = load_table(language, "selections")["rate"]  # of a number alone
+    is_rate = re.search(rate["said"], found["speed"]) is not None
+    return (found["speed"] if is_rate else f"{found['speed']}{rate['unit']}"), found["rest"]
 
 
 def same_speed(plain: str, language: str) -> re.Match[str] | None:
