@@ -17,6 +17,7 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
+from chatrobot.language.last_motion import laps
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -212,14 +213,22 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     """`One more step`, after three alike: so many more of them; None where the last motion was nothing so often.
 
     What is counted must be what was repeated.
+
+    Raises:
+        Unclear: it wants one more lap, and the last motion was none.
     """
     last = dialogue.last_motion
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "further"))), None)
     if last is None or last.plan is None or found is None:
         return None
-    steps = list(last.plan.steps)
+    steps, said = list(last.plan.steps), found.groupdict(default="")
     once = once_of(steps)
-    count = _number(found.groupdict(default=""), "count", load_table(language, "selections")) or 1
+    count = _number(said, "count", load_table(language, "selections")) or 1
+    if said.get("lap"):
+        more = laps(steps, count)
+        if more is None:
+            raise Unclear("which_size", plain[:60])
+        return more
     return steps[:once] * count if once < len(steps) else None
 
 
