@@ -114,6 +114,11 @@ def is_taken_back(plain: str, language: str) -> bool:
     return any(one.fullmatch(plain.strip()) for one in forms(language, "held", "void"))
 
 
+def may_be_change(plain: str, language: str) -> bool:
+    """Whether a normalised text has words that deny or bound a part of the plan: `only forward`."""
+    return form(language, "held", "limits").search(plain) is not None
+
+
 def answered(plain: str, steps: tuple[Step, ...], reading: Reading) -> Interpretation | None:
     """What a text asks of the steps of a plan: `what is step two?`; None where it asks nothing of them.
 

@@ -139,7 +139,7 @@ def _name_of(direction_rad: float) -> str:
 
 
 def laps(steps: Sequence[Step], count: int) -> list[Step] | None:
-    """So many more rounds of a closed way: of a circle, a turn on the spot, a shape with its turns; None of any other."""
+    """So many more rounds of a circle, a full turn on the spot, a closed shape; None of any other way."""
     drives = [step for step in steps if isinstance(step, Drive)]
     turning = [step for step in steps if isinstance(step, (Arc, Turn))]
     if len(drives) + len(turning) != len(steps) or any(drive.distance_m is None for drive in drives):

@@ -242,8 +242,9 @@ def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
 
 def step_kinds(named: str, language: str) -> tuple[type[Step], ...]:
     """The kinds of steps that a word like `turns` or `leg` names; all of them for any other."""
-    kinds = load_table(language, "selections")["kinds"].items()
-    return _KINDS[next((kind for kind, words in kinds if named in words), "step")]
+    tables = [load_table(language, name).get("kinds", {}) for name in ("selections", "held")]
+    kinds = (kind for table in tables for kind, words in table.items() if named in words)
+    return _KINDS[next(kinds, "step")]
 
 
 def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
