@@ -181,10 +181,14 @@ class OfflineInterpreter:
         own = replace(context, dialogue=replace(context.dialogue, pending="", held=None))
         try:
             meant = answered(plain, held.steps, reading)
-            steps = changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
+            steps = (
+                changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
+                if meant is None
+                else None
+            )
         except Unclear as problem:
             return asked_back(problem, language)
-        if meant is None and steps is not None:
+        if steps is not None:
             return proposed(planned(steps, language), language, code="held")
         meant = meant or self._meant(text, language, own)
         if meant.outcome == "answered":
