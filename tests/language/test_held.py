@@ -66,3 +66,31 @@ def test_a_new_order_is_done_and_nothing_waits_any_more() -> None:
     talk = conversation(PLAN)
     assert talk.say("turn left 30").plan is not None
     assert talk.dialogue.held is None
+
+
+PLAN_ZH = "前进一米，左转九十度，后退半米，先别动"
+
+
+@pytest.mark.parametrize(
+    ("order", "said", "left"),
+    [
+        (PLAN_ZH, "第二步改往右转", "drive 1 m; turn right 90 deg; drive 0.5 m back"),
+        (PLAN_ZH, "转弯改六十度", "drive 1 m; turn left 60 deg; drive 0.5 m back"),
+        (PLAN_ZH, "最后一步不要了", "drive 1 m; turn left 90 deg"),
+        (PLAN_ZH, "最后再前进一米", "drive 1 m; turn left 90 deg; drive 0.5 m back; drive 1 m"),
+        (PLAN_ZH, "请问第二步是什么", "drive 1 m; turn left 90 deg; drive 0.5 m back"),
+        (PLAN_ZH, "只要往前就好", ""),
+        ("等我口令前进三米左转九十度", "三米改两米", "drive 2 m; turn left 90 deg"),
+        (
+            "等一下我说走你才走喔。先右转九十度，再往前六十公分",
+            "转弯改成往左",
+            "turn left 90 deg; drive 0.6 m",
+        ),
+        ("我喊开始你再跑哦，往前跑两米", "不跑了", ""),
+    ],
+)
+def test_a_plan_that_waits_is_changed_in_chinese(order: str, said: str, left: str) -> None:
+    talk = conversation(order)
+    assert talk.dialogue.held is not None
+    assert talk.say(said).plan is None
+    assert waits(order, said) == left

@@ -42,26 +42,28 @@ def _unit_patterns() -> tuple[re.Pattern[str], ...]:
 
 
 @lru_cache(maxsize=1)
-def _measured_things() -> tuple[tuple[str, str], ...]:
+def _measured_things() -> tuple[dict[str, str], ...]:
     tables = [load_table(language, "facts").get("measured", {}) for language in LANGUAGES]
-    return tuple((table["said"], table["counted"]) for table in tables if table)
+    return tuple(table for table in tables if table)
 
 
 def with_measured_things(text: str) -> str:
     """`my ruler is 30 cm long, go ahead three rulers` → `go ahead three times 30 cm`, for a thing of no other meaning.
 
+    The words are `[measured]` of `facts.toml`.
+
     Raises:
         Unclear: for an amount that belongs to a thing which is not counted then.
     """
-    for said, counted in _measured_things():
-        found = re.search(said, text)
+    for way in _measured_things():
+        found = re.search(way["said"], text)
         if found is None or _is_known(found["thing"]):
             continue
         rest = f"{text[: found.start()]} {text[found.end() :]}".strip()
-        number = re.compile(counted.replace("THING", re.escape(found["thing"])))
+        number = re.compile(way["counted"].replace("THING", re.escape(found["thing"])))
         if number.search(rest):
-            measure = found["measure"]
-            return number.sub(lambda m, measure=measure: _so_many(m["count"], measure), rest)  # type: ignore[misc]
+            said = number.sub(way["so_many"].replace("MEASURE", found["measure"]), rest)
+            return re.sub(way["once"].replace("MEASURE", re.escape(found["measure"])), found["measure"], said)
         raise Unclear("unknown_part", found[0].strip(" ,.;:"))
     return text
 
@@ -69,12 +71,9 @@ def with_measured_things(text: str) -> str:
 def _is_known(thing: str) -> bool:
     """Whether it is a word that means something in a command: a side, a step, a radius."""
     words = lexicon().words
-    meanings = [meaning for end in ("", "s") for meaning in words.get((thing + end,), ())]
+    named = [(thing,), (f"{thing}s",), tuple(thing)]  # Chinese words are listed by their characters
+    meanings = [meaning for name in named for meaning in words.get(name, ())]
     return any(kind not in ("filler", "glue") for kind, _ in meanings)
-
-
-def _so_many(count: str, measure: str) -> str:
-    return measure if count in ("a", "an", "one", "1") else f"{count} times {measure}"
 
 
 def defined_unit(text: str) -> tuple[str, str] | None:

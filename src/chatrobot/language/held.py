@@ -97,17 +97,26 @@ def _in_place(own: Sequence[Step], steps: list[Step], plain: str, reading: Readi
     at = [i for i, step in enumerate(steps) if len(own) == 1 and type(step) is type(own[0])]
     if len(at) != 1:
         raise Unclear("unclear_motion", plain[:60])
-    old, new = steps[at[0]], own[0]
+    return [*steps[: at[0]], _on_the_way_of(own[0], steps[at[0]]), *steps[at[0] + 1 :]]
+
+
+def _on_the_way_of(new: Step, old: Step) -> Step:
+    """The old step on the way of one that is said without an amount; the new one where it is of another kind."""
     if isinstance(old, Turn) and isinstance(new, Turn):
-        new = replace(old, left=new.left)
-    elif isinstance(old, Drive) and isinstance(new, Drive):
-        new = replace(old, direction_rad=new.direction_rad)
-    return [*steps[: at[0]], new, *steps[at[0] + 1 :]]
+        return replace(old, left=new.left)
+    if isinstance(old, Drive) and isinstance(new, Drive):
+        return replace(old, direction_rad=new.direction_rad)
+    return new
 
 
 def is_taken_back(plain: str, language: str) -> bool:
     """Whether a normalised text takes the whole plan back: `actually, skip it`."""
     return any(one.fullmatch(plain.strip()) for one in forms(language, "held", "void"))
+
+
+def may_be_change(plain: str, language: str) -> bool:
+    """Whether a normalised text has words that deny or bound a part of the plan: `only forward`."""
+    return form(language, "held", "limits").search(plain) is not None
 
 
 def answered(plain: str, steps: tuple[Step, ...], reading: Reading) -> Interpretation | None:
@@ -154,6 +163,8 @@ def _with_part(said: dict[str, str], steps: list[Step], reading: Reading, read_a
     new = _of_one(part, [steps[at[0]]], reading)
     if new is None:
         new = _steps(read_anew(part))
+        if len(new) == 1 and not any(atom.kind == "q" for atom in reading.atoms(part)):
+            new = [_on_the_way_of(new[0], steps[at[0]])]
     return [*steps[: at[0]], *new, *steps[at[0] + 1 :]]
 
 

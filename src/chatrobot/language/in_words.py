@@ -43,8 +43,7 @@ def _at_one_speed(plain: str, reading: Reading) -> Interpretation | None:
     told = speed_for_all(plain, reading.language)
     if told is None:
         return None
-    said = told[0] if "秒" in told[0] or "/s" in told[0] else f"{told[0]}米每秒"
-    speeds = [atom for atom in reading.atoms(said) if atom.kind not in SILENT]
+    speeds = [atom for atom in reading.atoms(told[0]) if atom.kind not in SILENT]
     meant = read_command(told[1], reading)
     steps = meant.plan.steps if meant.plan is not None else ()
     drives = [step for step in steps if isinstance(step, (Drive, Arc))]

@@ -34,7 +34,7 @@ from chatrobot.language.detect import spoken
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import with_known_counts
 from chatrobot.language.glossed import in_known_words, read_glossed
-from chatrobot.language.held import answered, answered_late, changed, is_taken_back
+from chatrobot.language.held import answered, answered_late, changed, is_taken_back, may_be_change
 from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
@@ -181,15 +181,20 @@ class OfflineInterpreter:
         own = replace(context, dialogue=replace(context.dialogue, pending="", held=None))
         try:
             meant = answered(plain, held.steps, reading)
-            steps = changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
+            steps = (
+                changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
+                if meant is None
+                else None
+            )
         except Unclear as problem:
             return asked_back(problem, language)
-        if meant is None and steps is not None:
+        if steps is not None:
             return proposed(planned(steps, language), language, code="held")
         meant = meant or self._meant(text, language, own)
         if meant.outcome == "answered":
             return replace(meant, proposal=offer(held, language))
-        if meant.proposal is not None and not meant.is_held:  # no guess takes the place of what was to wait
+        is_guess = meant.plan is not None and may_be_change(plain, language)
+        if is_guess or (meant.proposal is not None and not meant.is_held):  # it takes no place of what waits
             return asked_back(Unclear("unknown_part", meant.unaccounted or text[:60]), language)
         return meant
 

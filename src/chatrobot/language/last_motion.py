@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from chatrobot.language.context import Context, Dialogue
@@ -20,6 +22,8 @@ from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _LEAST_SIDES = 3
 """Fewer drives than that draw no shape."""
+_NEAR = 0.01
+"""Metres from where a closed way began, and parts of a round."""
 
 
 def steps_of(record: TurnRecord | None) -> tuple[Step, ...]:
@@ -194,3 +198,26 @@ def state_after(context: Context) -> State:
 def _name_of(direction_rad: float) -> str:
     named = (n for n, a in DIRECTIONS.items() if abs(math.remainder(a - direction_rad, 2 * math.pi)) < 1e-6)
     return next(named, "forward")
+
+
+def laps(steps: Sequence[Step], count: int) -> list[Step] | None:
+    """So many more rounds of a circle, a full turn on the spot, a closed shape; None of any other way."""
+    drives = [step for step in steps if isinstance(step, Drive)]
+    turning = [step for step in steps if isinstance(step, (Arc, Turn))]
+    if len(drives) + len(turning) != len(steps) or any(drive.distance_m is None for drive in drives):
+        return None
+    rounds = sum((step.angle_rad or 0.0) for step in turning) / (2 * math.pi)
+    is_whole = rounds > _NEAR and abs(rounds - round(rounds)) < _NEAR
+    if not is_whole or len({step.left for step in turning}) != 1:
+        return None
+    only = steps[0]
+    if len(steps) == 1 and isinstance(only, (Arc, Turn)):
+        return [replace(only, angle_rad=2 * math.pi * count)]
+    end, heading_rad = 0j, 0.0
+    for step in steps:
+        if isinstance(step, Drive):
+            end += cmath.rect(step.distance_m or 0.0, heading_rad + step.direction_rad)
+        elif isinstance(step, Turn):
+            heading_rad += (step.angle_rad or 0.0) * (1 if step.left else -1)
+    is_closed = abs(end) < _NEAR and not any(isinstance(step, Arc) for step in steps)
+    return [*steps[: len(steps) // round(rounds)]] * count if is_closed else None

@@ -17,6 +17,7 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
+from chatrobot.language.last_motion import laps
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -214,14 +215,22 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     """`One more step`, after three alike: so many more of them; None where the last motion was nothing so often.
 
     What is counted must be what was repeated.
+
+    Raises:
+        Unclear: it wants one more lap, and the last motion was none.
     """
     last = dialogue.last_motion
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "further"))), None)
     if last is None or last.plan is None or found is None:
         return None
-    steps = list(last.plan.steps)
+    steps, said = list(last.plan.steps), found.groupdict(default="")
     once = once_of(steps)
-    count = _number(found.groupdict(default=""), "count", load_table(language, "selections")) or 1
+    count = _number(said, "count", load_table(language, "selections")) or 1
+    if said.get("lap"):
+        more = laps(steps, count)
+        if more is None:
+            raise Unclear("which_size", plain[:60])
+        return more
     return steps[:once] * count if once < len(steps) else None
 
 
@@ -236,8 +245,9 @@ def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
 
 def step_kinds(named: str, language: str) -> tuple[type[Step], ...]:
     """The kinds of steps that a word like `turns` or `leg` names; all of them for any other."""
-    kinds = load_table(language, "selections")["kinds"].items()
-    return _KINDS[next((kind for kind, words in kinds if named in words), "step")]
+    tables = [load_table(language, name).get("kinds", {}) for name in ("selections", "held")]
+    kinds = (kind for table in tables for kind, words in table.items() if named in words)
+    return _KINDS[next(kinds, "step")]
 
 
 def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
@@ -250,7 +260,11 @@ def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
 def speed_for_all(plain: str, language: str) -> tuple[str, str] | None:
     """The speed that a normalised text tells for all it orders, and the rest of it; None where it tells none so."""
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "for_all"))), None)
-    return (found["speed"], found["rest"]) if found is not None else None
+    if found is None:
+        return None
+    rate = load_table(language, "selections")["rate"]  # of a number alone
+    is_rate = re.search(rate["said"], found["speed"]) is not None
+    return (found["speed"] if is_rate else f"{found['speed']}{rate['unit']}"), found["rest"]
 
 
 def same_speed(plain: str, language: str) -> re.Match[str] | None:

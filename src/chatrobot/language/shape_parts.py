@@ -7,12 +7,11 @@ was driven since; where that is no part of it, nothing is.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from dataclasses import replace
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import forms, load_table
+from chatrobot.language.data_files import form, forms, load_table
 from chatrobot.language.normalise import normalise
 from chatrobot.language.rephrase import plain_text
 from chatrobot.language.unclear import Unclear
@@ -45,11 +44,11 @@ def asks_for_rest(text: str, language: str) -> bool:
 
 def _cut(plain: str, language: str) -> tuple[str, int] | None:
     """The text of the whole shape, and how many of its sides are wanted; None where it wants all."""
-    for form in forms(language, "shape_parts", "some"):
-        found = form.search(plain)
+    for some in forms(language, "shape_parts", "some"):
+        found = some.search(plain)
         if found is not None:
             whole = f"{plain[: found.start()]} {plain[found.end() :]}"
-            return " ".join(whole.split()), _number(found["count"] or "one", language)
+            return " ".join(whole.split()), _number(found["count"], language) if found["count"] else 1
     return None
 
 
@@ -86,20 +85,17 @@ def _next_sides(plain: str, language: str, dialogue: Dialogue, read: Read) -> li
     after, all_left = wanted
     if all_left is not None:
         told = _number(all_left.get("count", ""), language)
-        if (told or (1 if _is_last(plain) else len(ends))) != len(ends):
+        is_one = form(language, "shape_parts", "one_left").search(plain) is not None
+        if (told or (1 if is_one else len(ends))) != len(ends):
             raise Unclear("unclear_motion", plain[:60])
         return left
     assert after is not None
     count = _number(after["count"], language) or 1
     done = sum(isinstance(step, Drive) for step in _driven(language, dialogue))
-    nth = len(ends) + done if after["nth"] in ("last", "final") else _number(after["nth"], language)
-    if count > len(ends) or (nth and nth != done + 1):
+    nth = _number(after["nth"], language)
+    if count > len(ends) or (nth and nth != (done + 1 if nth > 0 else -len(ends))):
         raise Unclear("unclear_motion", plain[:60])
     return left if count == len(ends) else left[: ends[count - 1]]
-
-
-def _is_last(plain: str) -> bool:
-    return re.search(r"\blast\b", plain) is not None
 
 
 def _left_of_shape(language: str, dialogue: Dialogue, read: Read) -> list[Step] | None:
@@ -141,10 +137,10 @@ def _next_slice(plain: str, language: str, dialogue: Dialogue) -> list[Step] | N
     whole = math.isclose(last.angle_rad * parts, 2 * math.pi, rel_tol=1e-6)
     if not whole or named != parts or len(arcs) >= parts or (len(arcs) < 2 and "part" not in said):
         return None
-    nth = parts if said["nth"] in ("last", "final", "remaining") else _number(said["nth"], language)
-    if (nth and nth != len(arcs) + 1) or (said["nth"] == "other" and parts != 2):
+    nth = _number(said["nth"], language)
+    if nth and nth != (len(arcs) + 1 if nth > 0 else len(arcs) - parts):
         raise Unclear("unclear_motion", plain[:60])
-    way = said.get("way", "")
+    way = load_table(language, "shape_parts")["ways"].get(said.get("way", ""), "")
     return [replace(last, left=way == "left") if way else last]
 
 
@@ -161,12 +157,13 @@ def _arcs_before(dialogue: Dialogue) -> list[Arc]:
 
 def _number(word: str, language: str) -> int:
     table = load_table(language, "selections")
-    named = {**table.get("numbers", {}), **table.get("ordinals", {})}
+    own = load_table(language, "shape_parts").get("ordinals", {})
+    named = {**table.get("numbers", {}), **table.get("ordinals", {}), **own}
     return int(word) if word.isdecimal() else int(named.get(word, 0))
 
 
 def _said(name: str, plain: str, language: str) -> dict[str, str] | None:
     found = next(
-        filter(None, (form.fullmatch(plain.strip()) for form in forms(language, "shape_parts", name))), None
+        filter(None, (one.fullmatch(plain.strip()) for one in forms(language, "shape_parts", name))), None
     )
     return {"count": "", "nth": "", **{k: v or "" for k, v in found.groupdict().items()}} if found else None
