@@ -28,6 +28,7 @@ from chatrobot.language.beside import (
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
+from chatrobot.language.pared import bears, is_complete, mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
@@ -120,7 +121,10 @@ def likeliest(
             found = read(rest.text)
         except Unclear as stumbled:
             if not _without(rest, stumbled, best, names, odds):
-                return _core(rest, problem, language, read_anew) if not stumbled.refused else None
+                if stumbled.refused:
+                    return None
+                found_ = _core(rest, problem, language, read_anew)
+                return found_ or _pared(rest, stumbled, language, names, read, read_anew)
             is_sure = False
             continue
         if rest.strange and not _means_the_same(found, rest.text, read_anew):
@@ -175,6 +179,23 @@ def _motion_in_one_piece(clause: Clause, plain: str) -> tuple[list[Sign], str]:
     stop = clause.signs[last].start if last < len(clause.signs) else clause.stop
     around = [*clause.signs[:first], *clause.signs[last:]]
     return around, plain[clause.signs[first].start : stop].strip(" ,.;:!")
+
+
+def _pared(
+    rest: _Rest, stumbled: Unclear, language: LanguageCode, names: Names, read: Reader, read_anew: Reader
+) -> Interpretation | None:
+    """What is ordered without the words that nobody knows, or with a typing error mended, proposed."""
+    if bears(rest.text, names):
+        return None
+    found = pared(rest.text, names, stumbled, read)
+    if found is None:
+        mended = mistyped(rest.text, stumbled, read)
+        return proposed(mended, language, (stumbled.part,)) if mended is not None else None
+    if not is_complete(found.text, names) and not found.points:
+        return None
+    if not found.points and not _means_the_same(found.meant, found.text, read_anew):
+        return None
+    return proposed(found.meant, language, (*found.left_out, *rest.strange, *rest.left_out))
 
 
 @lru_cache(maxsize=1)

@@ -58,6 +58,13 @@ def _correct(word: str) -> str:
     return closest[0]
 
 
+def neighbours_of(word: str) -> list[str]:
+    """The words of motion that one typing error, whichever key it was, makes `word` of; none of a short word."""
+    if len(word) < 4 or not word.isalpha() or not word.isascii():
+        return []
+    return sorted(known for known in _near_in_length(word) if edit_distance(word, known, 1) <= 1)
+
+
 @lru_cache(maxsize=1)
 def _by_start() -> Mapping[tuple[str, int], list[str]]:
     index: dict[tuple[str, int], list[str]] = {}
