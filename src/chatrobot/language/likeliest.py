@@ -27,8 +27,7 @@ from chatrobot.language.beside import (
 )
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.lexicon import cut, lexicon
-from chatrobot.language.pared import bears, is_complete, mistyped, pared
+from chatrobot.language.pared import mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
@@ -48,6 +47,8 @@ FAR_M = 10.0
 _ALONE = frozenset({"NUMBER", "FLAG"})
 """Beside nothing else that moves a number stands alone: `and 45 more`."""
 _DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE"})
+_TOLD = frozenset({"NUMBER", "FRACTION", "SCALE", "MULTIPLE", "TIMES", "ROT", "FULLTURN", "SHAPE"})
+"""Labels of words of amounts and ways, which no proposal leaves out unless they are surely said beside the order."""
 _DEG = "deg"
 _DECIMAL = re.compile(r"\d*\.?\d+")
 
@@ -56,24 +57,18 @@ Reader = Callable[[str], Interpretation]
 
 @dataclass
 class _Rest:
-    """What is read of a text: the clauses that are kept, without the words that nobody knows."""
+    """What is read of a text: the clauses that are kept."""
 
     plain: str
     kept: list[Read]
-    strange: list[str] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
 
     @property
     def text(self) -> str:
-        return self.without_strange(" ".join(self.said(read) for read in self.kept).strip(" ,;:"))
+        return " ".join(self.said(read) for read in self.kept).strip(" ,;:")
 
     def said(self, read: Read) -> str:
         return self.plain[read.clause.start : read.clause.stop].strip()
-
-    def without_strange(self, text: str) -> str:
-        for part in self.strange:
-            text = " ".join(text.replace(part, " ", 1).split())
-        return text
 
     def leave_out(self, read: Read) -> None:
         self.kept.remove(read)
@@ -120,16 +115,11 @@ def likeliest(
         try:
             found = read(rest.text)
         except Unclear as stumbled:
-            if not _without(rest, stumbled, best, names, odds):
-                if stumbled.refused:
-                    return None
-                found_ = _core(rest, problem, language, read_anew)
-                return found_ or _pared(rest, stumbled, language, names, read, read_anew)
+            if stumbled.refused or not _left_out_clause(rest, stumbled, best, odds):
+                return _in_part(rest, stumbled, language, names, read, read_anew)
             is_sure = False
             continue
-        if rest.strange and not _means_the_same(found, rest.text, read_anew):
-            return None  # what was left out may be what is to be changed
-        return found if is_sure else proposed(found, language, (*rest.strange, *rest.left_out))
+        return found if is_sure else proposed(found, language, rest.left_out)
     return None
 
 
@@ -181,21 +171,20 @@ def _motion_in_one_piece(clause: Clause, plain: str) -> tuple[list[Sign], str]:
     return around, plain[clause.signs[first].start : stop].strip(" ,.;:!")
 
 
-def _pared(
+def _in_part(
     rest: _Rest, stumbled: Unclear, language: LanguageCode, names: Names, read: Reader, read_anew: Reader
 ) -> Interpretation | None:
     """What is ordered without the words that nobody knows, or with a typing error mended, proposed."""
-    if bears(rest.text, names):
+    if stumbled.refused or stumbled.code != "unknown_part":
         return None
     found = pared(rest.text, names, stumbled, read)
-    if found is None:
-        mended = mistyped(rest.text, stumbled, read)
-        return proposed(mended, language, (stumbled.part,)) if mended is not None else None
-    if not is_complete(found.text, names) and not found.points:
-        return None
-    if not found.points and not _means_the_same(found.meant, found.text, read_anew):
-        return None
-    return proposed(found.meant, language, (*found.left_out, *rest.strange, *rest.left_out))
+    # What was left out may be what is to be changed.
+    if found is not None and (found.points or _means_the_same(found.meant, found.text, read_anew)):
+        return proposed(found.meant, language, (*found.left_out, *rest.left_out))
+    mended = mistyped(rest.text, names, stumbled, read)
+    if mended is not None:
+        return proposed(mended, language, (stumbled.part,))
+    return _core(rest, stumbled, language, read_anew)
 
 
 @lru_cache(maxsize=1)
@@ -230,18 +219,12 @@ def _is_sure_talk(read: Read, best: float) -> bool:
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 
-def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names, odds: Mapping[int, Aside]) -> bool:
-    """Leave out what the rules stumbled on; False where it may be what was meant."""
+def _left_out_clause(rest: _Rest, stumbled: Unclear, best: float, odds: Mapping[int, Aside]) -> bool:
+    """Leave out the clause that the rules stumbled in; False where it may be part of what was meant."""
     clause = rest.with_part(stumbled.part)
-    if clause is not None and _may_be_left_out(rest, clause, stumbled, best, odds):
-        rest.leave_out(clause)
-        return True
-    if clause is None or stumbled.refused or stumbled.code != "unknown_part":
+    if clause is None or not _may_be_left_out(rest, clause, stumbled, best, odds):
         return False
-    strange = _is_strange(stumbled.part, rest.text, names) and clause.clause.measures
-    if not strange or not clause.clause.is_within(rest.plain.find(stumbled.part, clause.clause.start)):
-        return False
-    rest.strange.append(stumbled.part)
+    rest.leave_out(clause)
     return True
 
 
@@ -252,8 +235,11 @@ def _may_be_left_out(
     # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
     if not any(read.clause.is_covered_by(other.clause) for other in rest.kept if other is not read):
         return False
-    least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     aside = odds.get(read.clause.start)
+    told = any(sign.moves and sign.label in _TOLD for sign in read.clause.signs)
+    if told and (aside is None or aside.odds < SURE_ASIDE or read.log_odds >= NO_ORDER):
+        return False  # no amount of what is ordered is missing in a proposal
+    least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     if aside is not None and aside.odds >= least and not read.clause.denies:
         return True
     return (read.clause.talks or not stumbled.refused) and _leaves_order(rest, read, best)
@@ -273,12 +259,6 @@ def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
     others = [other for other in rest.kept if other is not read and other.clause.moves]
     passable = not (clause.measures or clause.depends) and read.log_odds < min(NO_ORDER, best + 1.0)
     return passable and bool(others) and order_log_odds(others) >= ORDER
-
-
-def _is_strange(part: str, text: str, names: Names) -> bool:
-    """Whether it consists of words that nobody knows, so that none of them is one of motion."""
-    words = lexicon().words
-    return part in text and not any((unit,) in words or (unit,) in names for unit in cut(part))
 
 
 def _means_the_same(found: Interpretation, text: str, read_anew: Reader) -> bool:

@@ -1,4 +1,4 @@
-"""An order without the words that nobody knows, for a proposal: each alone, with the small words around it, or its clause.
+"""An order without the words that nobody knows, for a proposal: each alone, with the small words around it, or all of it.
 
 Left out is only what can hold no part of the order: every number, way and word of motion stays, and so does every word
 that denies, bounds, compares or asks. What follows a number may be its unit, so that nothing is read without it.
@@ -6,7 +6,7 @@ that denies, bounds, compares or asks. What follows a number may be its unit, so
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -25,8 +25,9 @@ _KEPT = (BINDING | DEPENDING | {"report", "sees", "did", "does", "doing", "past"
 _COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
 """Labels of words after which a word that nobody knows may be a unit, or what is counted."""
 _EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
-_POINTING = frozenset({"other", "same", "again"})
-"""Labels of words after which a word that nobody knows is the name of what was done: `that dose`."""
+_POINTING = frozenset({"FLAG", "MULTIPLE"})
+"""Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
+_BEARING = frozenset({"not", "condition", "correction", "hypothetical", *'"“”「」『』'})
 _MOST_READ, _MOST_LEFT_OUT = 16, 3
 
 
@@ -47,13 +48,13 @@ class _Shorter(NamedTuple):
 
 def pared(text: str, names: Names, problem: Unclear, read: Reader) -> Pared | None:
     """The likeliest order in `text`, where `read` raised `problem`; None where no word can be left out."""
+    if _bears(text, names):
+        return None
     reads = 0
 
-    def tried(text: str, problem: Unclear, before: tuple[_Shorter, ...]) -> Pared | None:
+    def tried(text: str, part: str, before: tuple[_Shorter, ...]) -> Pared | None:
         nonlocal reads
-        if problem.refused or problem.code != "unknown_part" or len(before) >= _MOST_LEFT_OUT:
-            return None
-        for shorter in _shorter(text, names, problem.part):
+        for shorter in _shorter(text, names, part):
             left_out = (*before, shorter)
             reads += 1
             if reads > _MOST_READ:
@@ -61,21 +62,26 @@ def pared(text: str, names: Names, problem: Unclear, read: Reader) -> Pared | No
             try:
                 meant = read(shorter.text)
             except Unclear as stumbled:
-                found = tried(shorter.text, stumbled, left_out)
+                again = stumbled.code == "unknown_part" and not stumbled.refused
+                found = (
+                    tried(shorter.text, stumbled.part, left_out)
+                    if again and len(left_out) < _MOST_LEFT_OUT
+                    else None
+                )
                 if found is not None:
                     return found
                 continue
-            if meant.plan is not None:
-                words = tuple(part.left_out for part in left_out)
-                return Pared(meant, shorter.text, words, all(part.points for part in left_out))
+            points = all(part.points for part in left_out)
+            if meant.plan is not None and (points or _is_complete(shorter.text, names)):
+                return Pared(meant, shorter.text, tuple(part.left_out for part in left_out), points)
         return None
 
-    return tried(text, problem, ())
+    return tried(text, problem.part, ())
 
 
-def mistyped(text: str, problem: Unclear, read: Reader) -> Interpretation | None:
+def mistyped(text: str, names: Names, problem: Unclear, read: Reader) -> Interpretation | None:
     """What `text` means with one typing error mended that makes another word of it; None where that is not sure."""
-    if problem.refused or problem.code != "unknown_part" or text.split().count(problem.part) != 1:
+    if _bears(text, names) or text.split().count(problem.part) != 1:
         return None
     found: list[Interpretation] = []
     for known in neighbours_of(problem.part):
@@ -97,25 +103,53 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
         return
     signs = clause.signs
     held = [i for i, sign in enumerate(signs) if at <= sign.start < at + len(part)]
-    if not held or not all(_is_light(sign) for sign in signs):
-        held = held if held and all(_is_light(signs[i]) for i in held) else []
-    if not held or any(sign.label == "not" for sign in signs):
+    if not held or not all(_is_light(signs[i]) for i in held) or _is_bound(signs, held[0]):
+        return
+    likened = next((i for i, sign in enumerate(signs[: held[0]]) if sign.text in _words("likening")), None)
+    if likened is not None and any(sign.moves for sign in signs[likened:]):
+        if all(sign.label not in _EXTENTS - {"SHAPE"} for sign in signs[likened:]):
+            yield _without(text, clause, likened, len(signs) - 1, points=False)
         return
     first, last = held[0], held[-1]
-    if first and signs[first - 1].label in _COUNTED:
+    before, after = first, last + 1
+    while before and _is_light(signs[before - 1]):
+        before -= 1
+    while after < len(signs) and _is_light(signs[after]):
+        after += 1
+    if _is_counted(signs, first) or _is_number(signs, after) or not (before or _says_how_much(signs)):
         return
-    points = bool(first) and signs[first - 1].label in _POINTING
+    points = bool(before) and signs[before - 1].label in _POINTING
+    points |= any(sign.label == "other" for sign in signs[before:first])
     if all(_is_strange(signs[i], names) for i in held):
         yield _without(text, clause, first, last, points=points)
-    while first and _is_light(signs[first - 1]):
-        first -= 1
-    while last + 1 < len(signs) and _is_light(signs[last + 1]):
-        last += 1
-    is_whole = first == 0 and last + 1 == len(signs)
-    if last + 1 - first > len(held) and not (first and signs[first - 1].label in _COUNTED):
-        yield _without(text, clause, first, last, points=points or is_whole)
-    elif is_whole and len(clauses) > 1:
-        yield _without(text, clause, first, last, points=True)
+    is_whole = before == 0 and after == len(signs)
+    if (after - before > len(held) or is_whole) and not _is_counted(signs, before):
+        yield _without(text, clause, before, after - 1, points=points or is_whole)
+
+
+def _is_bound(signs: Sequence[Sign], at: int) -> bool:
+    """Whether the clause is another choice, or says what else is moved: 把椅子往左挪."""
+    if any(sign.label == "contrast" for sign in signs):
+        return True
+    return any(sign.text in _words("moved") for sign in signs[:at])
+
+
+def _is_counted(signs: Sequence[Sign], at: int) -> bool:
+    return at > 0 and signs[at - 1].label in _COUNTED
+
+
+def _is_number(signs: Sequence[Sign], at: int) -> bool:
+    """Whether a number without a unit stands there: `forklift 3`."""
+    if at >= len(signs) or signs[at].label != "NUMBER":
+        return False
+    after = next((sign.label for sign in signs[at:] if sign.label not in _COUNTED), "")
+    return after not in _EXTENTS
+
+
+def _says_how_much(signs: Sequence[Sign]) -> bool:
+    """Whether no number is without its unit, where a word that nobody knows stands for the verb: `change step 2`."""
+    moving = {sign.label for sign in signs if sign.moves}
+    return not moving & _COUNTED or bool(moving & {"UNIT", "VERB", "SHAPE"})
 
 
 def _without(text: str, clause: Clause, first: int, last: int, *, points: bool) -> _Shorter:
@@ -139,12 +173,10 @@ def _place_of(part: str, text: str) -> int:
 
 def _is_light(sign: Sign) -> bool:
     """Whether it may be left out, if it says nothing that anybody knows: neither of motion nor what bears on it."""
-    words = sign.text.split("_")
-    return not (
-        sign.moves
-        or sign.is_name
-        or sign.label in _KEPT
-        or any(not unit.isalpha() or unit in _bearing() for unit in words)
+    if sign.moves or sign.is_name or sign.label in _KEPT:
+        return False
+    return all(
+        (unit[0].isalpha() or unit == "-") and unit not in _words("words") for unit in sign.text.split("_")
     )
 
 
@@ -153,18 +185,17 @@ def _is_strange(sign: Sign, names: Names) -> bool:
     return not any((unit,) in words or (unit,) in names for unit in sign.text.split("_"))
 
 
-def bears(text: str, names: Names) -> bool:
-    """Whether a text has words that quote, ask or depend, so that nothing can be left out beside them."""
-    labels = {sign.label for clause in clauses_of(text, names) for sign in clause.signs}
-    return bool(labels & {"condition", "contrast", "correction", "hypothetical", '"', "“", "”", "「", "」"})
+def _bears(text: str, names: Names) -> bool:
+    """Whether a text has words that quote, deny or depend, so that nothing can be left out beside them."""
+    return any(sign.label in _BEARING for clause in clauses_of(text, names) for sign in clause.signs)
 
 
-def is_complete(text: str, names: Names) -> bool:
+def _is_complete(text: str, names: Names) -> bool:
     """Whether what is left says how much, or how often."""
     return any(sign.label in _EXTENTS for clause in clauses_of(text, names) for sign in clause.signs)
 
 
-@lru_cache(maxsize=1)
-def _bearing() -> frozenset[str]:
-    """Words that say how a motion lies to something else, or bound it."""
-    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get("words", ()))
+@lru_cache(maxsize=4)
+def _words(name: str) -> frozenset[str]:
+    """Words that say how a motion lies to something else, liken it, or stand before what else is to be moved."""
+    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get(name, ()))
