@@ -178,13 +178,14 @@ def _in_part(
     if stumbled.refused or stumbled.code != "unknown_part":
         return None
     found = pared(rest.text, names, stumbled, read)
+    mended = mistyped(rest.text, names, stumbled, read)
+    if mended is not None:
+        other = found is not None and found.meant.plan != mended.plan
+        return None if other else proposed(mended, language, (stumbled.part,))
     # What was left out may be what is to be changed.
     if found is not None and (found.points or _means_the_same(found.meant, found.text, read_anew)):
         return proposed(found.meant, language, (*found.left_out, *rest.left_out))
-    mended = mistyped(rest.text, names, stumbled, read)
-    if mended is not None:
-        return proposed(mended, language, (stumbled.part,))
-    return _core(rest, stumbled, language, read_anew)
+    return None
 
 
 @lru_cache(maxsize=1)

@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import LANGUAGES, REPLY_LANGUAGES, load_table
+from chatrobot.language.gloss import MARK
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
@@ -25,9 +26,12 @@ _KEPT = (BINDING | DEPENDING | {"report", "sees", "did", "does", "doing", "past"
 _COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
 """Labels of words after which a word that nobody knows may be a unit, or what is counted."""
 _EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
+_SIZES = _EXTENTS - {"SHAPE"}
 _POINTING = frozenset({"FLAG", "MULTIPLE"})
 """Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
 _BEARING = frozenset({"not", "condition", "correction", "hypothetical", *'"“”「」『』'})
+_WAYS = frozenset({"dir", "rot"})
+_LEAST_OF_WAY = 4
 _MOST_READ, _MOST_LEFT_OUT = 16, 3
 
 
@@ -105,10 +109,10 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
     held = [i for i, sign in enumerate(signs) if at <= sign.start < at + len(part)]
     if not held or not all(_is_light(signs[i]) for i in held) or _is_bound(signs, held[0]):
         return
-    likened = next((i for i, sign in enumerate(signs[: held[0]]) if sign.text in _words("likening")), None)
-    if likened is not None and any(sign.moves for sign in signs[likened:]):
-        if all(sign.label not in _EXTENTS - {"SHAPE"} for sign in signs[likened:]):
-            yield _without(text, clause, likened, len(signs) - 1, points=False)
+    opened = _opened(signs, held[0])
+    if opened is not None:
+        if not any(sign.moves and sign.label in _SIZES for sign in signs[opened : held[-1] + 2]):
+            yield _without(text, clause, opened, held[-1], points=False)
         return
     first, last = held[0], held[-1]
     before, after = first, last + 1
@@ -127,6 +131,15 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
         yield _without(text, clause, before, after - 1, points=points or is_whole)
 
 
+def _opened(signs: Sequence[Sign], at: int) -> int | None:
+    """Where a phrase begins that only says what it is like, or what for, and ends at `at`: `like a proper ring main`.
+
+    None where there is none, or all of it may be left out word by word.
+    """
+    opened = next((i for i, sign in enumerate(signs[:at]) if sign.text in _words("opening")), None)
+    return opened if opened is not None and any(sign.moves for sign in signs[opened : at + 2]) else None
+
+
 def _is_bound(signs: Sequence[Sign], at: int) -> bool:
     """Whether the clause is another choice, or says what else is moved: 把椅子往左挪."""
     if any(sign.label == "contrast" for sign in signs):
@@ -135,12 +148,15 @@ def _is_bound(signs: Sequence[Sign], at: int) -> bool:
 
 
 def _is_counted(signs: Sequence[Sign], at: int) -> bool:
-    return at > 0 and signs[at - 1].label in _COUNTED
+    """Whether a number stands before it, be it with an article: `half a knot`."""
+    while at and signs[at - 1].label == "NUMBER" and not signs[at - 1].moves:
+        at -= 1
+    return at > 0 and signs[at - 1].moves and signs[at - 1].label in _COUNTED
 
 
 def _is_number(signs: Sequence[Sign], at: int) -> bool:
     """Whether a number without a unit stands there: `forklift 3`."""
-    if at >= len(signs) or signs[at].label != "NUMBER":
+    if at >= len(signs) or signs[at].label != "NUMBER" or not signs[at].moves:
         return False
     after = next((sign.label for sign in signs[at:] if sign.label not in _COUNTED), "")
     return after not in _EXTENTS
@@ -176,8 +192,24 @@ def _is_light(sign: Sign) -> bool:
     if sign.moves or sign.is_name or sign.label in _KEPT:
         return False
     return all(
-        (unit[0].isalpha() or unit == "-") and unit not in _words("words") for unit in sign.text.split("_")
+        (unit[0].isalpha() or unit == "-") and unit not in _words("words") and not _names_way(unit)
+        for unit in sign.text.split("_")
     )
+
+
+def _names_way(unit: str) -> bool:
+    """Whether a way is part of a word that nobody knows: `astarboard`, `rechtsseitig`."""
+    word = unit.removesuffix(MARK)
+    ways = _ways()
+    return (word,) not in lexicon().words and (word.startswith(ways) or word.endswith(ways))
+
+
+@lru_cache(maxsize=1)
+def _ways() -> tuple[str, ...]:
+    known = (key[0] for key, meaning in lexicon().words.items() if len(key) == 1 and meaning[0][0] in _WAYS)
+    latin = {word for word in known if word.isascii() and len(word) >= _LEAST_OF_WAY}
+    listed = (load_table(code, "relations").get("ways", ()) for code in REPLY_LANGUAGES)
+    return tuple(latin.union(*listed))
 
 
 def _is_strange(sign: Sign, names: Names) -> bool:
@@ -197,5 +229,5 @@ def _is_complete(text: str, names: Names) -> bool:
 
 @lru_cache(maxsize=4)
 def _words(name: str) -> frozenset[str]:
-    """Words that say how a motion lies to something else, liken it, or stand before what else is to be moved."""
+    """Words that say how a motion lies to something else, open what it is like or for, or stand before what else is to be moved."""
     return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get(name, ()))
