@@ -50,6 +50,7 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
     """`text` in English words. `names` are words of this dialogue and stay as they are."""
     using = tables(language)
     written = {folded(word, language): word for word in _WORD.findall(text)}
+    written |= {using.dialect[word]: said for word, said in written.items() if word in using.dialect}
     spoken = _WORD.sub(lambda word: using.dialect.get(word[0], word[0]), folded(normalise(text), language))
     plain = _replaced(spoken, using.before)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}

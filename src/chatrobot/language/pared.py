@@ -1,4 +1,4 @@
-"""An order without the words that nobody knows, for a proposal: each alone, with the small words around it, or all of it.
+"""An order without the words that nobody knows, for a proposal: each alone, or with the small words around it.
 
 Left out is only what can hold no part of the order: every number, way and word of motion stays, and so does every word
 that denies, bounds, compares or asks. What follows a number may be its unit, so that nothing is read without it.
@@ -32,6 +32,7 @@ _POINTING = frozenset({"FLAG", "MULTIPLE"})
 _BEARING = frozenset({"not", "condition", "correction", "hypothetical", *'"“”「」『』'})
 _WAYS = frozenset({"dir", "rot"})
 _LEAST_OF_WAY = 4
+_MAKE = (("verb", "make"),)
 _MOST_READ, _MOST_LEFT_OUT = 16, 3
 
 
@@ -107,7 +108,9 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
         return
     signs = clause.signs
     held = [i for i, sign in enumerate(signs) if at <= sign.start < at + len(part)]
-    if not held or not all(_is_light(signs[i]) for i in held) or _is_bound(signs, held[0]):
+    if not held or not all(_is_light(signs[i]) for i in held):
+        return
+    if any(sign.label == "contrast" for sign in signs) or _is_of_something_else(signs, held[0]):
         return
     opened = _opened(signs, held[0])
     if opened is not None:
@@ -140,11 +143,19 @@ def _opened(signs: Sequence[Sign], at: int) -> int | None:
     return opened if opened is not None and any(sign.moves for sign in signs[opened : at + 2]) else None
 
 
-def _is_bound(signs: Sequence[Sign], at: int) -> bool:
-    """Whether the clause is another choice, or says what else is moved: 把椅子往左挪."""
-    if any(sign.label == "contrast" for sign in signs):
+def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
+    """Whether the word at `at` is what else is moved, or what it is said of: 把椅子往左挪, `that gate swings left`."""
+    if any(sign.text in _words("moved") for sign in signs[:at]):
         return True
-    return any(sign.text in _words("moved") for sign in signs[:at])
+    begin = at
+    while begin and _is_light(signs[begin - 1]):
+        begin -= 1
+    if not any(sign.text in _words("articles") for sign in signs[begin:at]):
+        return False
+    if begin and signs[begin - 1].label == "VERB":  # what is drawn is no thing
+        return lexicon().words.get(tuple(signs[begin - 1].text.split("_"))) != _MAKE
+    first = next((i for i, sign in enumerate(signs) if sign.label != "opening"), 0)
+    return not begin and signs[first].text in _words("articles")
 
 
 def _is_counted(signs: Sequence[Sign], at: int) -> bool:
@@ -229,5 +240,5 @@ def _is_complete(text: str, names: Names) -> bool:
 
 @lru_cache(maxsize=4)
 def _words(name: str) -> frozenset[str]:
-    """Words that say how a motion lies to something else, open what it is like or for, or stand before what else is to be moved."""
+    """Words that say how a motion lies to something else, or in what phrases something else is named."""
     return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get(name, ()))
