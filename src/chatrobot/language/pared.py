@@ -110,7 +110,9 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
     held = [i for i, sign in enumerate(signs) if at <= sign.start < at + len(part)]
     if not held or not all(_is_light(signs[i]) for i in held):
         return
-    if any(sign.label == "contrast" for sign in signs) or _is_of_something_else(signs, held[0]):
+    if any(sign.label == "contrast" for sign in signs) or _is_order_of_its_own(signs, held[0]):
+        return
+    if _is_of_something_else(signs, held[0]):
         return
     opened = _opened(signs, held[0])
     if opened is not None:
@@ -126,7 +128,7 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
     if _is_counted(signs, first) or _is_number(signs, after) or not (before or _says_how_much(signs)):
         return
     points = bool(before) and signs[before - 1].label in _POINTING
-    points |= any(sign.label == "other" for sign in signs[before:first])
+    points &= all(sign.text in _words("naming") for sign in signs[before:first])
     if all(_is_strange(signs[i], names) for i in held):
         yield _without(text, clause, first, last, points=points)
     is_whole = before == 0 and after == len(signs)
@@ -143,13 +145,29 @@ def _opened(signs: Sequence[Sign], at: int) -> int | None:
     return opened if opened is not None and any(sign.moves for sign in signs[opened : at + 2]) else None
 
 
+def _is_order_of_its_own(signs: Sequence[Sign], at: int) -> bool:
+    """Whether what else is to be done begins there: `and blorp the frobnicator`."""
+    joins = at > 0 and (signs[at - 1].label == "request" or _kind(signs[at - 1]) == "conn")
+    return joins and not any(sign.label in ("UNIT", "FLAG") for sign in signs[at:])
+
+
+def _kind(sign: Sign) -> str:
+    return lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))[0][0]
+
+
 def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
-    """Whether the word at `at` is what else is moved, or what it is said of: 把椅子往左挪, `that gate swings left`."""
+    """Whether the word at `at` is what else is moved, or what it is said of: 把椅子往左挪, `that gate swings left`.
+
+    Or it says where the motion is done: `around the fern`.
+    """
     if any(sign.text in _words("moved") for sign in signs[:at]):
         return True
     begin = at
     while begin and _is_light(signs[begin - 1]):
         begin -= 1
+    governed = begin and not signs[begin - 1].moves and signs[begin - 1].text in _words("words")
+    if governed and signs[begin - 1].text not in _words("towards"):
+        return True
     if not any(sign.text in _words("articles") for sign in signs[begin:at]):
         return False
     if begin and signs[begin - 1].label == "VERB":  # what is drawn is no thing
@@ -203,7 +221,7 @@ def _is_light(sign: Sign) -> bool:
     if sign.moves or sign.is_name or sign.label in _KEPT:
         return False
     return all(
-        (unit[0].isalpha() or unit == "-") and unit not in _words("words") and not _names_way(unit)
+        (unit[:1].isalpha() or unit == "-") and unit not in _words("words") and not _names_way(unit)
         for unit in sign.text.split("_")
     )
 
