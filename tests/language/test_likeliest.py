@@ -46,7 +46,7 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
         ("zorblax 2 m forward", "drive 2 m"),
         ("zorblaxing half a metre to the left, and do that twice", "drive 0.5 m left\ndrive 0.5 m left"),
         ("shift her bodily to starboard, 40 cm", "drive 0.4 m right"),
-        ("turn right 30 degrees for the frobnicator label", "turn right 30 deg"),
+        ("turn right 30 degrees for the label frobnicator", "turn right 30 deg"),
         ("turn lest 45 degrees", "turn left 45 deg"),
         ("Wusel dich einen halben Meter nach rechts", "drive 0.5 m right"),
         ("吭哧吭哧往前一米五", "drive 1.5 m"),
@@ -103,7 +103,7 @@ def test_what_only_names_the_motion_before_is_left_out_of_a_proposal() -> None:
     [
         ("往左，啊不对，往右转六十度，我这嘴瓢了", "往右转六十度"),
         ("Fahr 20 Zentimeter vor, damit's ein Meter wird.", "damit's ein Meter wird"),
-        ("80 Zentimeter vor, warten, weil die Ampel rot ist, dann 80 Zentimeter vor", "weil die Ampel rot ist"),
+        ("80 cm vor, 3 s warten, weil die Ampel rot ist, und dann nochmal 80 cm vor", "weil die Ampel rot ist"),
     ],
 )
 def test_a_question_quotes_what_was_said(text: str, quoted: str) -> None:

@@ -115,7 +115,7 @@ def likeliest(
         try:
             found = read(rest.text)
         except Unclear as stumbled:
-            if stumbled.refused or not _left_out_clause(rest, stumbled, best, odds):
+            if not _left_out_clause(rest, stumbled, best, odds):
                 return _in_part(rest, stumbled, language, names, read, read_anew)
             is_sure = False
             continue

@@ -45,7 +45,12 @@ def _part_of(text: str, part: str, *, is_reordered: bool) -> str:
     if held == wanted and wanted and not is_reordered:
         return part
     window = _window([unit.group() for unit in units], held)
-    if 2 * len(held) < len(wanted) or not held or window is None or len(window) > _SCATTERED * len(wanted) + 1:
+    if (
+        2 * len(held) < len(wanted)
+        or not held
+        or window is None
+        or len(window) > _SCATTERED * len(wanted) + 1
+    ):
         return _beginning(text)
     start, stop = units[window[0]].start(), units[window[-1]].end()
     if held != wanted:  # up to the marks on either side

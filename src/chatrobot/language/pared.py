@@ -6,11 +6,12 @@ that denies, bounds, compares or asks. What follows a number may be its unit, so
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import LANGUAGES, REPLY_LANGUAGES, load_table
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 from chatrobot.language.gloss import MARK
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.lexicon import cut, lexicon
@@ -26,11 +27,15 @@ _KEPT = (BINDING | DEPENDING | {"report", "sees", "did", "does", "doing", "past"
 _COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
 """Labels of words after which a word that nobody knows may be a unit, or what is counted."""
 _EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
-_SIZES = _EXTENTS - {"SHAPE"}
+_SIZES = (_EXTENTS | {"FLAG", "MULTIPLE", "COUNTER"}) - {"SHAPE"}
+_DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE", "ROLE", "PER", "FLAG", "MULTIPLE", "FULLTURN", "place"})
+_BARE = frozenset({"VERB", "PACE"})
+_TOLD = frozenset({"verdict", "does", "did"})
 _POINTING = frozenset({"FLAG", "MULTIPLE"})
 """Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
 _BEARING = frozenset({"not", "condition", "correction", "hypothetical", *'"“”「」『』'})
-_WAYS = frozenset({"dir", "rot"})
+_WAYS = frozenset({"dir", "rot", "pace"})
+"""Kinds of words that are never left out as part of another."""
 _LEAST_OF_WAY = 4
 _MAKE = (("verb", "make"),)
 _MOST_READ, _MOST_LEFT_OUT = 16, 3
@@ -86,12 +91,13 @@ def pared(text: str, names: Names, problem: Unclear, read: Reader) -> Pared | No
 
 def mistyped(text: str, names: Names, problem: Unclear, read: Reader) -> Interpretation | None:
     """What `text` means with one typing error mended that makes another word of it; None where that is not sure."""
-    if _bears(text, names) or text.split().count(problem.part) != 1:
+    signs = [sign for clause in clauses_of(text, names) for sign in clause.signs]
+    if _bears(text, names) or [sign.label for sign in signs if sign.text == problem.part] != [problem.part]:
         return None
     found: list[Interpretation] = []
     for known in neighbours_of(problem.part):
         try:
-            meant = read(" ".join(known if word == problem.part else word for word in text.split()))
+            meant = read(re.sub(rf"\b{re.escape(problem.part)}\b", known, text, count=1))
         except Unclear:
             continue
         if meant.plan is not None and meant.plan not in [other.plan for other in found]:
@@ -112,12 +118,15 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
         return
     if any(sign.label == "contrast" for sign in signs) or _is_order_of_its_own(signs, held[0]):
         return
-    if _is_of_something_else(signs, held[0]):
+    if _is_of_something_else(signs, held[0]) or _is_needed(signs, held[-1] + 1):
         return
     opened = _opened(signs, held[0])
     if opened is not None:
         if not any(sign.moves and sign.label in _SIZES for sign in signs[opened : held[-1] + 2]):
             yield _without(text, clause, opened, held[-1], points=False)
+        return
+    said = text[at : at + len(part)]
+    if any(word in said for word in _words("words") if not word.isascii()):
         return
     first, last = held[0], held[-1]
     before, after = first, last + 1
@@ -147,8 +156,25 @@ def _opened(signs: Sequence[Sign], at: int) -> int | None:
 
 def _is_order_of_its_own(signs: Sequence[Sign], at: int) -> bool:
     """Whether what else is to be done begins there: `and blorp the frobnicator`."""
-    joins = at > 0 and (signs[at - 1].label == "request" or _kind(signs[at - 1]) == "conn")
+    joins = at > 0 and _kind(signs[at - 1]) == "conn"
     return joins and not any(sign.label in ("UNIT", "FLAG") for sign in signs[at:])
+
+
+def _is_needed(signs: Sequence[Sign], after: int) -> bool:
+    """Whether without the word that ends before `after` nothing says what is done, or how much: `wait for zorblax`.
+
+    Or something is said of it (`the zorblax is 2 m long`), or it is part of a word of one character: 收回.
+    """
+    if after < len(signs) and (signs[after].label in _TOLD or _is_compound(signs, after)):
+        return True
+    moving = {sign.label for sign in signs if sign.moves}
+    if "VERB" in moving:
+        return moving <= _BARE
+    return bool(moving & _COUNTED) and not any(label in _DOES or label.islower() for label in moving)
+
+
+def _is_compound(signs: Sequence[Sign], at: int) -> bool:
+    return signs[at].label == "VERB" and len(signs[at].text) == 1 and len(signs) == at + 1
 
 
 def _kind(sign: Sign) -> str:
@@ -222,7 +248,8 @@ def _is_light(sign: Sign) -> bool:
         return False
     return all(
         (unit[:1].isalpha() or unit == "-") and unit not in _words("words") and not _names_way(unit)
-        for unit in sign.text.split("_")
+        for unit in (sign.text.replace("_", "") if not sign.text.isascii() else "", *sign.text.split("_"))
+        if unit
     )
 
 
@@ -259,4 +286,5 @@ def _is_complete(text: str, names: Names) -> bool:
 @lru_cache(maxsize=4)
 def _words(name: str) -> frozenset[str]:
     """Words that say how a motion lies to something else, or in what phrases something else is named."""
-    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get(name, ()))
+    tables = (load_table(code, "relations") for code in REPLY_LANGUAGES)
+    return frozenset(word for table in tables for word in table.get(name, ()))

@@ -13,7 +13,7 @@ from functools import lru_cache
 from chatrobot.language.lexicon import lexicon
 
 _ANTONYMS = frozenset({"left", "right", "forward", "back", "backward", "clockwise", "anticlockwise"})
-_OF_MOTION = frozenset({"dir", "rot", "verb", "shape", "num", "unit_length", "unit_angle", "unit_time"})
+_OF_MOTION = frozenset({"dir", "rot", "verb", "num", "unit_length", "unit_angle", "unit_time"})
 _TRIPLED = re.compile(r"([a-z])\1{2,}")
 """`gooo`, `leeeft`: no word has a letter three times running."""
 _ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
