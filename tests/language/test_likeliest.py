@@ -103,7 +103,7 @@ def test_what_only_names_the_motion_before_is_left_out_of_a_proposal() -> None:
     [
         ("往左，啊不对，往右转六十度，我这嘴瓢了", "往右转六十度"),
         ("Fahr 20 Zentimeter vor, damit's ein Meter wird.", "damit's ein Meter wird"),
-        ("80 cm vor, 3 s warten, weil die Ampel rot ist, und dann nochmal 80 cm vor", "weil die Ampel rot ist"),
+        ("Jetzt kommt der Witz am Mecanum-Rad: einen halben Meter nach rechts", "Witz am Mecanum-Rad"),
     ],
 )
 def test_a_question_quotes_what_was_said(text: str, quoted: str) -> None:
