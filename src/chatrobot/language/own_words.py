@@ -38,7 +38,7 @@ def _part_of(text: str, part: str, *, is_reordered: bool) -> str:
     if part.endswith("…") and not whole.endswith(_squeezed(said)):
         return _beginning(text)  # it breaks off in other words only
     if said and _squeezed(said) in whole:
-        return part
+        return part if is_reordered or said.isascii() else part.replace(" ", "")
     units = list(UNIT.finditer(text.casefold()))
     wanted = {unit for unit in UNIT.findall(said.casefold()) if unit[0].isalpha()}
     held = {unit.group() for unit in units} & wanted
