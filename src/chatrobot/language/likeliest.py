@@ -1,17 +1,15 @@
 """The likeliest reading of a text that the rules do not cover whole: it is done where it is sure, else proposed.
 
 Clauses that tell of something, and hold nothing that could bear on the order, are talk: the order beside them is done.
-Where the rules stumble on anything else, the clause it stands in is left out, or the word alone if nobody knows it
-and its clause says by itself what to do and how much. What was left out is named, and the plan of the rest proposed.
+Where the rules stumble on anything else, the clause it stands in is left out, or only words that nobody knows
+(`pared.py`). What was left out is named, and the plan of the rest proposed.
 """
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
@@ -25,11 +23,10 @@ from chatrobot.language.beside import (
     odds_beside_asides,
     refers,
 )
-from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.pared import mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
+from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
@@ -140,37 +137,6 @@ def offer(plan: Plan, language: LanguageCode, *, code: str = "held") -> Proposal
     return Proposal(format_plan(plan), say(language, code, text=describe_plan(plan, language)))
 
 
-def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
-    """The motion that one clause names in one piece, proposed where nothing around it can bear on it."""
-    if problem.code != "unknown_part" or problem.refused or len(rest.kept) != 1:
-        return None
-    around, core = _motion_in_one_piece(rest.kept[0].clause, rest.plain)
-    if not core or {sign.label for sign in around} & (BINDING | DEPENDING) - {"request", "please"}:
-        return None
-    if any(sign.text in _relations() for sign in around):
-        return None
-    try:
-        return proposed(read_anew(core), language, (problem.part.rstrip(" …"),))
-    except Unclear:
-        return None
-
-
-def _motion_in_one_piece(clause: Clause, plain: str) -> tuple[list[Sign], str]:
-    """The signs around what is said from the first to the last word of motion, and that text; "" where there are two.
-
-    Between two words of motion stands at most one other: `drive forward for 2 m`.
-    """
-    moving = [i for i, sign in enumerate(clause.signs) if sign.moves and sign.label.isupper()]
-    if not moving or not clause.measures or any(b - a > 2 for a, b in itertools.pairwise(moving)):
-        return [], ""
-    first, last = moving[0], moving[-1] + 1
-    if first and clause.signs[first].label != "VERB":
-        return [], ""  # what stands before it may be the verb
-    stop = clause.signs[last].start if last < len(clause.signs) else clause.stop
-    around = [*clause.signs[:first], *clause.signs[last:]]
-    return around, plain[clause.signs[first].start : stop].strip(" ,.;:!")
-
-
 def _in_part(
     rest: _Rest, stumbled: Unclear, language: LanguageCode, names: Names, read: Reader, read_anew: Reader
 ) -> Interpretation | None:
@@ -186,12 +152,6 @@ def _in_part(
     if found is not None and (found.points or _means_the_same(found.meant, found.text, read_anew)):
         return proposed(found.meant, language, (*found.left_out, *rest.left_out))
     return None
-
-
-@lru_cache(maxsize=1)
-def _relations() -> frozenset[str]:
-    """Words that say how a motion lies to something else, or bound it: nothing beside them can be left out."""
-    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get("words", ()))
 
 
 def _with_unit(
