@@ -75,6 +75,7 @@ def test_a_side_that_is_told_of_is_no_turn_before_an_order() -> None:
         "the frobnicator 2 m to the left",
         "zorblax three, forward 2 m and zorblax four",  # a number without a unit may be part of a name
         "go forward one and a half zorblax",
+        "expanding square search: one metre ahead, right ninety degrees, one metre",
         "go 2 m astarboard",  # a way is part of the word
         "fahr 2 m halblinks",
         "把那把椅子往左挪半米",

@@ -118,7 +118,7 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
         return
     if any(sign.label == "contrast" for sign in signs) or _is_order_of_its_own(signs, held[0]):
         return
-    if _is_of_something_else(signs, held[0]) or _is_needed(signs, held[-1] + 1):
+    if _is_of_something_else(signs, held[0]) or _is_needed(signs, held[0], held[-1] + 1):
         return
     opened = _opened(signs, held[0])
     if opened is not None:
@@ -160,16 +160,18 @@ def _is_order_of_its_own(signs: Sequence[Sign], at: int) -> bool:
     return joins and not any(sign.label in ("UNIT", "FLAG") for sign in signs[at:])
 
 
-def _is_needed(signs: Sequence[Sign], after: int) -> bool:
-    """Whether without the word that ends before `after` nothing says what is done, or how much: `wait for zorblax`.
+def _is_needed(signs: Sequence[Sign], at: int, after: int) -> bool:
+    """Whether without the word from `at` on nothing says what is done, or how much: `wait for zorblax`.
 
-    Or something is said of it (`the zorblax is 2 m long`), or it is part of a word of one character: 收回.
+    Or something is said of it (`the zorblax is 2 m long`), or it makes another word of its neighbour: 收回.
     """
     if after < len(signs) and (signs[after].label in _TOLD or _is_compound(signs, after)):
         return True
     moving = {sign.label for sign in signs if sign.moves}
     if "VERB" in moving:
         return moving <= _BARE
+    if moving == {"SHAPE"} and at and signs[at - 1].label == "SHAPE":
+        return True
     return bool(moving & _COUNTED) and not any(label in _DOES or label.islower() for label in moving)
 
 
