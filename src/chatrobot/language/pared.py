@@ -118,7 +118,7 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
         return
     if any(sign.label == "contrast" for sign in signs) or _is_order_of_its_own(signs, held[0]):
         return
-    if _is_of_something_else(signs, held[0]) or _is_needed(signs, held[0], held[-1] + 1):
+    if _is_of_something_else(signs, held[0]):
         return
     opened = _opened(signs, held[0])
     if opened is not None:
@@ -126,6 +126,8 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
             yield _without(text, clause, opened, held[-1], points=False)
         return
     said = text[at : at + len(part)]
+    if _is_needed(signs, held[0], held[-1] + 1):
+        return
     if any(word in said for word in _words("words") if not word.isascii()):
         return
     first, last = held[0], held[-1]
