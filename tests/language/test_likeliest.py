@@ -43,6 +43,13 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
         ("back up 2 m zorblaxing", "drive 2 m back"),
         ("in that case turn left 90 degrees", "turn left 90 deg"),
         ("go forward 1 m to clear the door", "drive 1 m"),
+        ("zorblax 2 m forward", "drive 2 m"),
+        ("zorblaxing half a metre to the left, and do that twice", "drive 0.5 m left\ndrive 0.5 m left"),
+        ("shift her bodily to starboard, 40 cm", "drive 0.4 m right"),
+        ("turn right 30 degrees for the label frobnicator", "turn right 30 deg"),
+        ("turn lest 45 degrees", "turn left 45 deg"),
+        ("Wusel dich einen halben Meter nach rechts", "drive 0.5 m right"),
+        ("吭哧吭哧往前一米五", "drive 1.5 m"),
     ],
 )
 def test_a_strange_word_beside_a_whole_order_is_asked_about_with_the_plan(text: str, plan: str) -> None:
@@ -56,7 +63,7 @@ def test_a_side_that_is_told_of_is_no_turn_before_an_order() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "zorblax 2 m forward",  # what is to be done is strange itself
+        "and zorblax forward",  # what is to be done is strange itself, and how far is not said
         "go to the zorblax",
         "if the zorblax opens, go forward 2 m",
         "go forward 2 m unless the zorblax rings",
@@ -64,6 +71,15 @@ def test_a_side_that_is_told_of_is_no_turn_before_an_order() -> None:
         "grab the cup and go forward 2 m",
         "go forward 1 m past the fern and turn to the fern",  # a second order around what is strange
         "turn left 90 degrees around the fern",
+        "turn the frobnicator 90 degrees to the left",  # something else
+        "the frobnicator 2 m to the left",
+        "zorblax three, forward 2 m and zorblax four",  # a number without a unit may be part of a name
+        "go forward one and a half zorblax",
+        "expanding square search: one metre ahead, right ninety degrees, one metre",
+        "go 2 m astarboard",  # a way is part of the word
+        "fahr 2 m halblinks",
+        "把那把椅子往左挪半米",
+        "前进一米然后阿巴阿巴",
     ],
 )
 def test_nothing_is_proposed_where_what_is_strange_may_be_the_order(text: str) -> None:
@@ -75,6 +91,26 @@ def test_what_is_to_be_changed_is_not_left_out_of_a_proposal() -> None:
     meant = talk.say("again with zorblax doubled")
     assert meant.plan is None
     assert meant.proposal is None
+
+
+def test_what_only_names_the_motion_before_is_left_out_of_a_proposal() -> None:
+    meant = conversation("forward 2 m").say("now half that dose, same direction")
+    assert meant.proposal is not None
+    assert meant.proposal.plan_text.strip() == "drive 1 m"
+
+
+@pytest.mark.parametrize(
+    ("text", "quoted"),
+    [
+        ("往左，啊不对，往右转六十度，我这嘴瓢了", "往右转六十度"),
+        ("Fahr 20 Zentimeter vor, damit's ein Meter wird.", "damit's ein Meter wird"),
+        ("Jetzt kommt der Witz am Mecanum-Rad: einen halben Meter nach rechts", "Witz am Mecanum-Rad"),
+    ],
+)
+def test_a_question_quotes_what_was_said(text: str, quoted: str) -> None:
+    meant = conversation().say(text)
+    assert meant.outcome == "unclear"
+    assert quoted in meant.reply
 
 
 def test_a_proposal_names_what_was_left_out() -> None:

@@ -21,6 +21,7 @@ MARK = "qx"
 _BREAK = re.compile(r"((?:[,!?;:…\n()\"“”„«»—–]|\.(?!\d))+)")
 _WORD = re.compile(r"[^\W\d_]+")
 _MARKED = re.compile(rf"([\w~]+)\{VERB}")
+_CHANGED = re.compile(r"([aou])e(?![aeou])")
 _LEAST_STEM, _LEAST_MENDED = 4, 5
 _SPACES = re.compile(r"[ \t]+")
 _SENTENCE = re.compile(r"(?<=[.!?;\n])(?!\d)")
@@ -50,6 +51,7 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
     """`text` in English words. `names` are words of this dialogue and stay as they are."""
     using = tables(language)
     written = {folded(word, language): word for word in _WORD.findall(text)}
+    written |= {using.dialect[word]: said for word, said in written.items() if word in using.dialect}
     spoken = _WORD.sub(lambda word: using.dialect.get(word[0], word[0]), folded(normalise(text), language))
     plain = _replaced(spoken, using.before)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
@@ -111,6 +113,11 @@ def _inflected(word: str, using: Tables) -> str:
         stem = word.removesuffix(ending)
         if stem != word and len(stem) >= _LEAST_STEM and (stem,) in using.words:
             return stem
+    stem = using.diminutive.sub("", word)
+    if stem != word and len(stem) >= _LEAST_STEM:
+        whole = next((noun for noun in (_CHANGED.sub(r"\1", stem), stem) if (noun,) in using.words), "")
+        if whole:
+            return whole
     if len(word) < _LEAST_MENDED or (word,) in lexicon().words:
         return ""
     slips = [meant for meant in using.mended if is_slip(word, meant)]

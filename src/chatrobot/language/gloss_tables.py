@@ -41,6 +41,7 @@ class Tables:
     values: Mapping[str, int]
     suffixes: Mapping[str, str]
     endings: tuple[str, ...]
+    diminutive: re.Pattern[str]
     mended: tuple[str, ...]
 
 
@@ -70,6 +71,7 @@ def tables(language: str) -> Tables:
         values={**numbers["ones"], **numbers["teens"], **numbers["tens"]},
         suffixes=numbers["suffixes"],
         endings=tuple(rest["endings"]),
+        diminutive=re.compile(rest["diminutive"]),
         mended=tuple(rest["mended"]),
     )
 

@@ -16,6 +16,7 @@ from chatrobot.language.detect import language_of, spoken
 from chatrobot.language.gloss import Gloss, gloss
 from chatrobot.language.interpretation import Interpretation, LanguageCode, stopped
 from chatrobot.language.names import names_in
+from chatrobot.language.own_words import in_own_words
 from chatrobot.plan.steps import Plan, Remember, Say, Step
 from chatrobot.plan.text import format_plan, parse_plan
 
@@ -36,7 +37,7 @@ def read_glossed(text: str, language: LanguageCode, context: Context, read: Read
     else:
         said = gloss(text, language, names_in(known))
         meant = _as_said(read(said.text, language, known), said)
-    return _as_said_before(meant, context, known)
+    return _as_said_before(in_own_words(meant, text), context, known)
 
 
 def in_known_words(text: str, context: Context) -> tuple[LanguageCode, str]:

@@ -1,17 +1,15 @@
 """The likeliest reading of a text that the rules do not cover whole: it is done where it is sure, else proposed.
 
 Clauses that tell of something, and hold nothing that could bear on the order, are talk: the order beside them is done.
-Where the rules stumble on anything else, the clause it stands in is left out, or the word alone if nobody knows it
-and its clause says by itself what to do and how much. What was left out is named, and the plan of the rest proposed.
+Where the rules stumble on anything else, the clause it stands in is left out, or only words that nobody knows
+(`pared.py`). What was left out is named, and the plan of the rest proposed.
 """
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
@@ -25,11 +23,10 @@ from chatrobot.language.beside import (
     odds_beside_asides,
     refers,
 )
-from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.lexicon import cut, lexicon
+from chatrobot.language.pared import mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
+from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
@@ -47,6 +44,8 @@ FAR_M = 10.0
 _ALONE = frozenset({"NUMBER", "FLAG"})
 """Beside nothing else that moves a number stands alone: `and 45 more`."""
 _DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE"})
+_TOLD = frozenset({"NUMBER", "FRACTION", "SCALE", "MULTIPLE", "TIMES", "ROT", "FULLTURN", "SHAPE"})
+"""Labels of words of amounts and ways, which no proposal leaves out unless they are surely said beside the order."""
 _DEG = "deg"
 _DECIMAL = re.compile(r"\d*\.?\d+")
 
@@ -55,24 +54,18 @@ Reader = Callable[[str], Interpretation]
 
 @dataclass
 class _Rest:
-    """What is read of a text: the clauses that are kept, without the words that nobody knows."""
+    """What is read of a text: the clauses that are kept."""
 
     plain: str
     kept: list[Read]
-    strange: list[str] = field(default_factory=list)
     left_out: list[str] = field(default_factory=list)
 
     @property
     def text(self) -> str:
-        return self.without_strange(" ".join(self.said(read) for read in self.kept).strip(" ,;:"))
+        return " ".join(self.said(read) for read in self.kept).strip(" ,;:")
 
     def said(self, read: Read) -> str:
         return self.plain[read.clause.start : read.clause.stop].strip()
-
-    def without_strange(self, text: str) -> str:
-        for part in self.strange:
-            text = " ".join(text.replace(part, " ", 1).split())
-        return text
 
     def leave_out(self, read: Read) -> None:
         self.kept.remove(read)
@@ -119,13 +112,11 @@ def likeliest(
         try:
             found = read(rest.text)
         except Unclear as stumbled:
-            if not _without(rest, stumbled, best, names, odds):
-                return _core(rest, problem, language, read_anew) if not stumbled.refused else None
+            if not _left_out_clause(rest, stumbled, best, odds):
+                return _in_part(rest, stumbled, language, names, read, read_anew)
             is_sure = False
             continue
-        if rest.strange and not _means_the_same(found, rest.text, read_anew):
-            return None  # what was left out may be what is to be changed
-        return found if is_sure else proposed(found, language, (*rest.strange, *rest.left_out))
+        return found if is_sure else proposed(found, language, rest.left_out)
     return None
 
 
@@ -146,41 +137,21 @@ def offer(plan: Plan, language: LanguageCode, *, code: str = "held") -> Proposal
     return Proposal(format_plan(plan), say(language, code, text=describe_plan(plan, language)))
 
 
-def _core(rest: _Rest, problem: Unclear, language: LanguageCode, read_anew: Reader) -> Interpretation | None:
-    """The motion that one clause names in one piece, proposed where nothing around it can bear on it."""
-    if problem.code != "unknown_part" or problem.refused or len(rest.kept) != 1:
+def _in_part(
+    rest: _Rest, stumbled: Unclear, language: LanguageCode, names: Names, read: Reader, read_anew: Reader
+) -> Interpretation | None:
+    """What is ordered without the words that nobody knows, or with a typing error mended, proposed."""
+    if stumbled.refused or stumbled.code != "unknown_part":
         return None
-    around, core = _motion_in_one_piece(rest.kept[0].clause, rest.plain)
-    if not core or {sign.label for sign in around} & (BINDING | DEPENDING) - {"request", "please"}:
-        return None
-    if any(sign.text in _relations() for sign in around):
-        return None
-    try:
-        return proposed(read_anew(core), language, (problem.part.rstrip(" …"),))
-    except Unclear:
-        return None
-
-
-def _motion_in_one_piece(clause: Clause, plain: str) -> tuple[list[Sign], str]:
-    """The signs around what is said from the first to the last word of motion, and that text; "" where there are two.
-
-    Between two words of motion stands at most one other: `drive forward for 2 m`.
-    """
-    moving = [i for i, sign in enumerate(clause.signs) if sign.moves and sign.label.isupper()]
-    if not moving or not clause.measures or any(b - a > 2 for a, b in itertools.pairwise(moving)):
-        return [], ""
-    first, last = moving[0], moving[-1] + 1
-    if first and clause.signs[first].label != "VERB":
-        return [], ""  # what stands before it may be the verb
-    stop = clause.signs[last].start if last < len(clause.signs) else clause.stop
-    around = [*clause.signs[:first], *clause.signs[last:]]
-    return around, plain[clause.signs[first].start : stop].strip(" ,.;:!")
-
-
-@lru_cache(maxsize=1)
-def _relations() -> frozenset[str]:
-    """Words that say how a motion lies to something else, or bound it: nothing beside them can be left out."""
-    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get("words", ()))
+    found = pared(rest.text, names, stumbled, read)
+    mended = mistyped(rest.text, names, stumbled, read)
+    if mended is not None:
+        other = found is not None and found.meant.plan != mended.plan
+        return None if other else proposed(mended, language, (stumbled.part,))
+    # What was left out may be what is to be changed.
+    if found is not None and (found.points or _means_the_same(found.meant, found.text, read_anew)):
+        return proposed(found.meant, language, (*found.left_out, *rest.left_out))
+    return None
 
 
 def _with_unit(
@@ -209,18 +180,12 @@ def _is_sure_talk(read: Read, best: float) -> bool:
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 
-def _without(rest: _Rest, stumbled: Unclear, best: float, names: Names, odds: Mapping[int, Aside]) -> bool:
-    """Leave out what the rules stumbled on; False where it may be what was meant."""
+def _left_out_clause(rest: _Rest, stumbled: Unclear, best: float, odds: Mapping[int, Aside]) -> bool:
+    """Leave out the clause that the rules stumbled in; False where it may be part of what was meant."""
     clause = rest.with_part(stumbled.part)
-    if clause is not None and _may_be_left_out(rest, clause, stumbled, best, odds):
-        rest.leave_out(clause)
-        return True
-    if clause is None or stumbled.refused or stumbled.code != "unknown_part":
+    if clause is None or not _may_be_left_out(rest, clause, stumbled, best, odds):
         return False
-    strange = _is_strange(stumbled.part, rest.text, names) and clause.clause.measures
-    if not strange or not clause.clause.is_within(rest.plain.find(stumbled.part, clause.clause.start)):
-        return False
-    rest.strange.append(stumbled.part)
+    rest.leave_out(clause)
     return True
 
 
@@ -231,8 +196,11 @@ def _may_be_left_out(
     # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
     if not any(read.clause.is_covered_by(other.clause) for other in rest.kept if other is not read):
         return False
-    least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     aside = odds.get(read.clause.start)
+    told = any(sign.moves and sign.label in _TOLD for sign in read.clause.signs)
+    if told and (aside is None or aside.odds < SURE_ASIDE or read.log_odds >= NO_ORDER):
+        return False  # no amount of what is ordered is missing in a proposal
+    least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     if aside is not None and aside.odds >= least and not read.clause.denies:
         return True
     return (read.clause.talks or not stumbled.refused) and _leaves_order(rest, read, best)
@@ -252,12 +220,6 @@ def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
     others = [other for other in rest.kept if other is not read and other.clause.moves]
     passable = not (clause.measures or clause.depends) and read.log_odds < min(NO_ORDER, best + 1.0)
     return passable and bool(others) and order_log_odds(others) >= ORDER
-
-
-def _is_strange(part: str, text: str, names: Names) -> bool:
-    """Whether it consists of words that nobody knows, so that none of them is one of motion."""
-    words = lexicon().words
-    return part in text and not any((unit,) in words or (unit,) in names for unit in cut(part))
 
 
 def _means_the_same(found: Interpretation, text: str, read_anew: Reader) -> bool:

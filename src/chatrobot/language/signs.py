@@ -21,7 +21,6 @@ _NO_CONTENT = frozenset(
      "operator", "unknown", "refuse"}
 )  # fmt: skip
 _MEASURES = frozenset({"UNIT", "SHAPE", "FULLTURN"})
-_BEGUN = frozenset({"VERB", "DIR", "request"})
 _IDLE = frozenset({"VERB", "DIR", "PLACE", "COUNTER"})
 _OPENING = frozenset({"request", "please", "opening", "robot", "hence"})
 _JOINTS = frozenset({"joint", "contrast"})
@@ -124,10 +123,6 @@ class Clause:
         mine, told = ({sign.label for sign in clause.signs if sign.moves} for clause in (self, other))
         needed = _WAYS if mine & _WAYS else _WAYS | {"VERB", "SHAPE"} if "VERB" in mine else None
         return needed is None or bool(told & needed)
-
-    def is_within(self, at: int) -> bool:
-        """Whether what stands at `at` in the text comes after what it says is to be done."""
-        return any(sign.label in _BEGUN and sign.start < at for sign in self.signs)
 
     @property
     def depends(self) -> bool:

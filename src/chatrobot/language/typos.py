@@ -13,6 +13,7 @@ from functools import lru_cache
 from chatrobot.language.lexicon import lexicon
 
 _ANTONYMS = frozenset({"left", "right", "forward", "back", "backward", "clockwise", "anticlockwise"})
+_OF_MOTION = frozenset({"dir", "rot", "verb", "num", "unit_length", "unit_angle", "unit_time"})
 _TRIPLED = re.compile(r"([a-z])\1{2,}")
 """`gooo`, `leeeft`: no word has a letter three times running."""
 _ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
@@ -56,6 +57,15 @@ def _correct(word: str) -> str:
     if len(set(closest) & _ANTONYMS) > 1 or len({words.words.get((w,), w) for w in closest}) > 1:
         return word
     return closest[0]
+
+
+def neighbours_of(word: str) -> list[str]:
+    """The words of motion that one typing error, whichever key it was, makes `word` of; none of a short word."""
+    if len(word) < 4 or not word.isalpha() or not word.isascii():
+        return []
+    meanings = lexicon().words
+    near = (known for known in _near_in_length(word) if edit_distance(word, known, 1) <= 1)
+    return sorted(known for known in near if meanings.get((known,), (("", ""),))[0][0] in _OF_MOTION)
 
 
 @lru_cache(maxsize=1)
