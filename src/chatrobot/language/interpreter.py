@@ -107,7 +107,7 @@ class OfflineInterpreter:
         reason = not_ordered(text, language) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
-        if hardly_ordered(said, language) or may_be_talk(meant, text, context):
+        if hardly_ordered(said, language) or may_be_talk(meant, text, language, context):
             return proposed(meant, language) or meant
         return meant
 

@@ -9,12 +9,14 @@ from functools import cache
 from chatrobot.language.acts import Read, read_acts
 from chatrobot.language.beside import SURE_ASIDE, Aside, asides
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import form, load_table
+from chatrobot.language.data_files import LANGUAGES, form, load_table
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.names import names_in
+from chatrobot.language.normalise import normalise
 from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import Rule, rules
-from chatrobot.language.signs import Clause, clauses_of, is_strong
+from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
 from chatrobot.plan.steps import RawTwist, Step
 
@@ -22,6 +24,9 @@ _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
 _CALLING = frozenset({"person", "please"})
+_SUBJECTS = frozenset({"mine", "kin", "other", "thing"})
+_MEANT = frozenset({"VERB", "DIR", "ROT", "SHAPE", "UNIT", "PLACE"})
+"""Labels of words by which a clause could be meant for the robot, though somebody else is its subject."""
 
 
 def not_ordered(plain: str, language: str) -> str:
@@ -52,7 +57,7 @@ def _rules(language: str, name: str) -> tuple[Rule, ...]:
     return rules(f"talk_{language}_{name}", [(rule, "") for rule in table[name]], table["parts"])
 
 
-def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:
+def may_be_talk(meant: Interpretation, text: str, language: str, context: Context) -> bool:
     """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody."""
     if meant.plan is None:
         return False
@@ -65,7 +70,7 @@ def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:
     if meant.corrects or context.dialogue.pending or _has_twists(meant.plan.steps):
         return False
     reads = read_acts(text, names)
-    return _is_bare_beside_talk(reads) or _calls_somebody(reads)
+    return _is_bare_beside_talk(reads) or _calls_somebody(reads, language) or _calls_a_name(reads, text, context)
 
 
 def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
@@ -81,7 +86,7 @@ def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     if any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
         return False
     talk = [read for read in reads if read not in bare]
-    if any(sign.moves and not sign.label.isupper() for read in talk for sign in read.clause.signs):
+    if any(_refers(sign) for read in talk for sign in read.clause.signs):
         return False  # it points at the motion before: 一样，加二十厘米
     if talk and talk[-1] is reads[-1] and any(sign.label == "praise" for sign in reads[-1].clause.signs):
         return True
@@ -89,13 +94,44 @@ def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     return not is_whole and any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
 
 
-def _calls_somebody(reads: Sequence[Read]) -> bool:
-    """`Please Ben, not so fast, go back a step`: whether somebody else is called first, and the robot is not."""
+def _refers(sign: Sign) -> bool:
+    return sign.moves and not sign.label.isupper() and sign.label != "past"
+
+
+def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
+    """`Please Ben, not so fast, go back a step`: whether somebody else is called first, and the robot is not.
+
+    `Grandpa, you go back` calls nobody else: who is called is who is meant.
+    """
     before = [read.clause for read in itertools.takewhile(lambda read: not read.clause.moves, reads)]
     if any(is_strong(clause.end) for clause in before):
         return False  # `thanks, Mum. Now go forward`
     called = any("person" in labels and labels <= _CALLING for labels in map(_labels, before))
-    return called and not any("robot" in _labels(read.clause) for read in reads)
+    pronouns = load_table(language, "talk")["pronouns"]
+    robot = (sign for read in reads for sign in read.clause.signs if sign.label == "robot")
+    return called and all(sign.text in pronouns for sign in robot)
+
+
+def _calls_a_name(reads: Sequence[Read], text: str, context: Context) -> bool:
+    """`Rex, go back`: whether it begins with a name that nobody gave the robot, and tells no amount.
+
+    The robot has that name once it moved for it: `Rex, go back 1 m`, or a yes to what was proposed.
+    """
+    clause = reads[0].clause
+    name = text[clause.start : clause.stop].strip(" ,")
+    if clause.end != "," or not _is_name(clause, name) or any(read.clause.measures for read in reads):
+        return False
+    turns = [*context.dialogue.turns, *context.dialogue.turns[-1:]]
+    said = (turn for turn, after in itertools.pairwise(turns) if turn.moved or after.moved)
+    return not any(normalise(turn.text).startswith(name) for turn in said)
+
+
+def _is_name(clause: Clause, said: str) -> bool:
+    """Whether it is one word that nobody knows, or looks like a name."""
+    if any(sign.label != sign.text for sign in clause.signs):
+        return False
+    strange = len(clause.signs) == 1 and (said,) not in lexicon().words
+    return strange or any(form(code, "talk", "name").fullmatch(said) for code in LANGUAGES)
 
 
 def _labels(clause: Clause) -> set[str]:
@@ -103,8 +139,9 @@ def _labels(clause: Clause) -> set[str]:
 
 
 def _is_told(read: Read, found: Mapping[int, Aside]) -> bool:
-    """Whether a clause names no motion at all, or is surely an aside without an amount."""
-    if not any(sign.moves and sign.label.isupper() for sign in read.clause.signs):
+    """Whether a clause names no motion at all, tells of somebody, or is surely an aside without an amount."""
+    labels = [sign.label for sign in read.clause.signs if sign.moves and sign.label.isupper()]
+    if not labels or (read.clause.signs[0].label in _SUBJECTS and not _MEANT & {*labels}):
         return True
     aside = found.get(read.clause.start)
     return aside is not None and aside.odds >= SURE_ASIDE and not read.clause.tells
