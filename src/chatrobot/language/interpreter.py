@@ -52,6 +52,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.shape_parts import part_of_shape
+from chatrobot.language.signs import clauses_of
 from chatrobot.language.starting import (
     mended_alone,
     with_told_apart,
@@ -286,6 +287,8 @@ class OfflineInterpreter:
             return planned(program, language)
         twists = read_twists(plain)
         if twists:
+            if clauses_of(normalise(text))[0].tells_of_command:
+                raise Unclear("nothing_to_do")
             return planned([*twists], language)
         if reflex.is_stop(text) or reflex.is_stop(plain):
             return stopped(language)
