@@ -52,7 +52,6 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.shape_parts import part_of_shape
-from chatrobot.language.signs import clauses_of
 from chatrobot.language.starting import (
     mended_alone,
     with_told_apart,
@@ -105,7 +104,7 @@ class OfflineInterpreter:
         text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
         meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        reason = not_ordered(text, language) if offers else ""
+        reason = not_ordered(text, language, meant.plan) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
         if hardly_ordered(said, language) or may_be_talk(meant, text, language, context):
@@ -287,8 +286,6 @@ class OfflineInterpreter:
             return planned(program, language)
         twists = read_twists(plain)
         if twists:
-            if clauses_of(normalise(text))[0].tells_of_command:
-                raise Unclear("nothing_to_do")
             return planned([*twists], language)
         if reflex.is_stop(text) or reflex.is_stop(plain):
             return stopped(language)

@@ -18,23 +18,26 @@ from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import Rule, rules
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
-from chatrobot.plan.steps import RawTwist, Step
+from chatrobot.plan.steps import Plan, RawTwist, Step
 
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
 _CALLING = frozenset({"person", "please"})
+_POLITE = frozenset({"please", "opening", "social"})
 _SUBJECTS = frozenset({"mine", "kin", "other", "thing"})
 _MEANT = frozenset({"VERB", "DIR", "ROT", "SHAPE", "UNIT", "PLACE"})
 """Labels of words by which a clause could be meant for the robot, though somebody else is its subject."""
 
 
-def not_ordered(plain: str, language: str) -> str:
+def not_ordered(plain: str, language: str, plan: Plan | None) -> str:
     """Why what a normalised text seems to order is not to be done, as a reason; "" where nothing says so.
 
     It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted, or what ends
     it is for no sensor to tell.
     """
+    if plan is not None and _has_twists(plan.steps) and clauses_of(plain)[0].tells_of_command:
+        return "nothing_to_do"
     if form(language, "starting", "withdrawn").search(plain):
         return "taken_back"
     if form(language, "starting", "bounded").search(plain):
@@ -99,17 +102,29 @@ def _refers(sign: Sign) -> bool:
 
 
 def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
-    """`Please Ben, not so fast, go back a step`: whether somebody else is called first, and the robot is not.
+    """`Please Ben, not so fast, go back a step`: whether somebody else is called, and the robot is not.
 
     `Grandpa, you go back` calls nobody else: who is called is who is meant.
     """
-    before = [read.clause for read in itertools.takewhile(lambda read: not read.clause.moves, reads)]
+    clauses = [read.clause for read in reads]
+    pronouns = load_table(language, "talk")["pronouns"]
+    if any(sign.label == "robot" and sign.text not in pronouns for clause in clauses for sign in clause.signs):
+        return False
+    if any(map(_tells_somebody, clauses)):
+        return True
+    begin = next((i for i, clause in enumerate(clauses) if clause.moves), len(clauses))
+    before, after = clauses[:begin], clauses[begin + 1 : begin + 2]
     if any(is_strong(clause.end) for clause in before):
         return False  # `thanks, Mum. Now go forward`
-    called = any("person" in labels and labels <= _CALLING for labels in map(_labels, before))
-    pronouns = load_table(language, "talk")["pronouns"]
-    robot = (sign for read in reads for sign in read.clause.signs if sign.label == "robot")
-    return called and all(sign.text in pronouns for sign in robot)
+    if any(clause.measures for clause in clauses) or is_strong(clauses[begin : begin + 1][-1].end):
+        after = []
+    return any("person" in labels and labels <= _CALLING for labels in map(_labels, [*before, *after]))
+
+
+def _tells_somebody(clause: Clause) -> bool:
+    """大家都退后: whether somebody else is told to do a motion."""
+    said = [sign for sign in clause.signs if sign.label not in _POLITE]
+    return bool(said) and said[0].label == "person" and any(sign.label == "VERB" for sign in said[1:])
 
 
 def _calls_a_name(reads: Sequence[Read], text: str, context: Context) -> bool:
