@@ -42,7 +42,7 @@ BINDING = frozenset(
 passed over."""
 DEPENDING = frozenset({"condition", "contrast", "correction", "question", "ask", "later", "FLAG"})
 """Labels of words on which it may depend whether anything is to be done, or what."""
-_NO_COMMAND = frozenset({"not", "condition", "earlier", "question", "hypothetical", "report"})
+_NO_COMMAND = frozenset({"not", "earlier", "question", "hypothetical", "report"})
 TALKING = frozenset(
     {"social", "praise", "complaint", "verdict", "mine", "did", "does", "sees", "earlier", "kin", "thing"}
 )

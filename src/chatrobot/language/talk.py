@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from chatrobot.language.acts import Read, read_acts
+from chatrobot.language.acts import MAYBE_ORDER, Read, read_acts
 from chatrobot.language.beside import SURE_ASIDE, Aside, asides
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES, form, load_table
@@ -73,6 +73,8 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     if meant.corrects or context.dialogue.pending or _has_twists(meant.plan.steps):
         return False
     reads = read_acts(text, names)
+    if _tells_of_the_person(reads):
+        return True
     return _is_bare_beside_talk(reads) or _calls_somebody(reads, language) or _calls_a_name(reads, text, context)
 
 
@@ -97,6 +99,12 @@ def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     return not is_whole and any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
 
 
+def _tells_of_the_person(reads: Sequence[Read]) -> bool:
+    """我先往右挪半米，给你让路: whether each clause that names a motion is about who speaks, and hardly an order."""
+    named = [read for read in reads if any(sign.moves and sign.label.isupper() for sign in read.clause.signs)]
+    return all(read.clause.signs[0].label == "mine" and read.log_odds < MAYBE_ORDER for read in named)
+
+
 def _refers(sign: Sign) -> bool:
     return sign.moves and not sign.label.isupper() and sign.label != "past"
 
@@ -110,13 +118,14 @@ def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
     pronouns = load_table(language, "talk")["pronouns"]
     if any(sign.label == "robot" and sign.text not in pronouns for clause in clauses for sign in clause.signs):
         return False
-    if any(map(_tells_somebody, clauses)):
+    measured = any(clause.measures for clause in clauses)
+    if any(_tells_somebody(clause) and (clause.measures or not measured) for clause in clauses):
         return True
     begin = next((i for i, clause in enumerate(clauses) if clause.moves), len(clauses))
     before, after = clauses[:begin], clauses[begin + 1 : begin + 2]
     if any(is_strong(clause.end) for clause in before):
         return False  # `thanks, Mum. Now go forward`
-    if any(clause.measures for clause in clauses) or is_strong(clauses[begin : begin + 1][-1].end):
+    if measured or is_strong(clauses[begin : begin + 1][-1].end):
         after = []
     return any("person" in labels and labels <= _CALLING for labels in map(_labels, [*before, *after]))
 
@@ -124,7 +133,8 @@ def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
 def _tells_somebody(clause: Clause) -> bool:
     """大家都退后: whether somebody else is told to do a motion."""
     said = [sign for sign in clause.signs if sign.label not in _POLITE]
-    return bool(said) and said[0].label == "person" and any(sign.label == "VERB" for sign in said[1:])
+    labels = [sign.label for sign in said]
+    return labels[:1] == ["person"] and "VERB" in labels and not {"robot", "request"} & {*labels}
 
 
 def _calls_a_name(reads: Sequence[Read], text: str, context: Context) -> bool:
