@@ -82,7 +82,9 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     reads = read_acts(text, names)
     if _tells_of_the_person(reads):
         return True
-    return _is_bare_beside_talk(reads) or _calls_somebody(reads, language) or _calls_a_name(reads, text, context)
+    return (
+        _is_bare_beside_talk(reads) or _calls_somebody(reads, language) or _calls_a_name(reads, text, context)
+    )
 
 
 def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
@@ -123,7 +125,9 @@ def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
     """
     clauses = [read.clause for read in reads]
     pronouns = load_table(language, "talk")["pronouns"]
-    if any(sign.label == "robot" and sign.text not in pronouns for clause in clauses for sign in clause.signs):
+    if any(
+        sign.label == "robot" and sign.text not in pronouns for clause in clauses for sign in clause.signs
+    ):
         return False
     measured = any(clause.measures for clause in clauses)
     if any(_tells_somebody(clause) and (clause.measures or not measured) for clause in clauses):
