@@ -135,11 +135,14 @@ def test_after_the_stop_of_one_motion_comes_another() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "Grandpa, you go back a bit", "爷爷，你慢慢往前走，不着急", "退后退后，大家都退后，地滑", "Alexa, forward thirty seconds",
+        "Grandpa, you go back a bit", "爷爷，你慢慢往前走，不着急", "退后退后，大家都退后，地滑",
+        "Alexa, forward thirty seconds",
         "Sit, Bella. Good girl. Now turn around.", "Rusty, go back", "大黄，过来", "go straight on for 200 metres",
-        "ten centimetres, I measured it twice", "三米，我量过的", "我先往右挪半米，给你让路", "ahead it's two metres, behind three",
+        "ten centimetres, I measured it twice", "三米，我量过的", "我先往右挪半米，给你让路",
+        "ahead it's two metres, behind three",
         "To go forward one metre you need about three seconds", "左后方三十厘米处有根线", "别看它小，能一口气退十米呢",
-        "Vorne sind es zwei Meter, hinten drei", "Der fährt nur einen Meter vor", "Einen Meter vorwärts fährt er in drei Sekunden",
+        "Vorne sind es zwei Meter, hinten drei", "Der fährt nur einen Meter vor",
+        "Einen Meter vorwärts fährt er in drei Sekunden",
         "Warte, bevor du einen Meter vorfährst, muss ich das Kabel wegräumen", "Shall we let it go forward one metre?",
         "yesterday I published linear.x 0.3, angular.z 0.6 for 4 s", "never publish a twist: linear.x 0.3 for 4 s",
         "刚右转90度", "原地别转半圈", "前进两米不是三米", "往前走两米，后一米慢点", "almost turn around",
