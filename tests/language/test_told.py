@@ -130,3 +130,52 @@ def test_to_stop_a_motion_is_not_to_make_it(text: str) -> None:
 def test_after_the_stop_of_one_motion_comes_another() -> None:
     assert math.degrees(conversation("停止左转，右转九十度").track.turned_rad) == pytest.approx(-90)
     assert conversation("停止后，退一米").track.pose.x_m == pytest.approx(-1.0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Grandpa, you go back a bit", "爷爷，你慢慢往前走，不着急", "退后退后，大家都退后，地滑",
+        "Alexa, forward thirty seconds",
+        "Sit, Bella. Good girl. Now turn around.", "Rusty, go back", "大黄，过来", "go straight on for 200 metres",
+        "ten centimetres, I measured it twice", "三米，我量过的", "我先往右挪半米，给你让路",
+        "ahead it's two metres, behind three",
+        "To go forward one metre you need about three seconds", "左后方三十厘米处有根线", "别看它小，能一口气退十米呢",
+        "Vorne sind es zwei Meter, hinten drei", "Der fährt nur einen Meter vor",
+        "Einen Meter vorwärts fährt er in drei Sekunden",
+        "Warte, bevor du einen Meter vorfährst, muss ich das Kabel wegräumen", "Shall we let it go forward one metre?",
+        "yesterday I published linear.x 0.3, angular.z 0.6 for 4 s", "never publish a twist: linear.x 0.3 for 4 s",
+        "刚右转90度", "原地别转半圈", "前进两米不是三米", "往前走两米，后一米慢点", "almost turn around",
+        "turn right until you face left", "turn completely to the left", "turn right by 90 i mean left by 90 don't",
+    ],
+)  # fmt: skip
+def test_what_is_told_others_or_denied_moves_nothing(text: str) -> None:
+    meant = Conversation().say(text)
+    assert meant.plan is None, meant.reply
+
+
+@pytest.mark.parametrize(
+    ("text", "x_m", "turned_deg"),
+    [
+        ("Rusty, drive forward 1 m", 1.0, 0),
+        ("By all means drive 1 m", 1.0, 0),
+        ("我的意思是左转九十度", 0, 90),
+        ("what I mean is turn left 90 degrees", 0, 90),
+        ("spin round once on the spot, never anticlockwise", 0, -360),
+        ("原地转一圈，不要逆时针", 0, -360),
+        ("前进不是两米，是三米", 3.0, 0),
+        ("Ninety degrees to the right would be nice", 0, -90),
+        ("Bitte einmal komplett links herum drehen", 0, 360),
+        ("Wenn's geht, fahr zwei Meter geradeaus", 2.0, 0),
+        ("现在轮到你了，前进两米", 2.0, 0),
+    ],
+)
+def test_an_order_that_looks_like_it_is_done(text: str, x_m: float, turned_deg: float) -> None:
+    talk = conversation(text)
+    assert talk.track.pose.x_m == pytest.approx(x_m, abs=1e-6)
+    assert math.degrees(talk.track.turned_rad) == pytest.approx(turned_deg, abs=1e-6)
+
+
+def test_a_name_that_the_robot_was_given_calls_it() -> None:
+    talk = conversation("Rusty, go back", "yes")
+    assert talk.say("Rusty, turn left").plan is not None

@@ -37,6 +37,7 @@ _OPPOSITE = ("other_way", "mirrored")
 _ORDERED = ("verb", "dir", "rot", "shape")
 _TOLD = frozenset({"q", "place", "flag", "nth"})
 """What makes a verb an order, beside a way and a shape."""
+_OTHER_ROT = {"left": "right", "right": "left"}
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
 
@@ -237,6 +238,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     """
     out: list[Atom] = []
     i, denied = 0, False
+    sides: list[Atom] = []
     while i < len(atoms):
         if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
             if any(a.kind == "flag" and a.value == "total" for a in atoms):
@@ -261,6 +263,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
             end += 1
         if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
             out.append(Atom("flag", "no_turn", "don't turn"))
+        if scope.rot in _OTHER_ROT and not scope.verb:
+            sides.append(Atom("rot", _OTHER_ROT[scope.rot], atoms[i].text))
         denied |= bool(scope.moves and not scope.verb)  # `drive not a circle`: the verb alone orders nothing
         announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
         if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
@@ -269,4 +273,5 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     ordered = ("dir", "rot", "shape") if denied and not any(a.kind in _TOLD for a in out) else _ORDERED
     if len(out) < len(atoms) and not any(a.kind in ordered for a in out):
         raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
-    return out
+    sided = any(a.kind in ("dir", "rot") and a.value in _OTHER_ROT for a in out)
+    return out if sided else [*out, *sides[:1]]  # `spin once, not clockwise`

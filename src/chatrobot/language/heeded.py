@@ -56,6 +56,7 @@ _OF_SEVERAL = frozenset({"each", "after_each", "until", "all"})
 """Flags of what is done several times, or till something; what is drawn, counted or bounded may tell it twice."""
 _EXTENTS = frozenset({"length", "angle", "turns", "time"})
 _COUNTED = frozenset({"trip", "between", "original_heading", "move", "times", "count"})
+_TURNED = frozenset({"angle", "turns"})
 _LONG = 40
 """So many amounts and directions are each asked about by themselves; it takes about a tenth of a second."""
 
@@ -118,9 +119,12 @@ def _check_clauses(
 
 
 def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
-    """Ask back where the motion before is done once more with its turns, though it is said not to turn."""
+    """Ask back where it turns though it is said not to: the motion before once more, or 原地别转半圈."""
     denied = next((atom for atom in atoms if (atom.kind, atom.value) == ("flag", "no_turn")), None)
-    told = any(atom.kind in ("verb", "dir", "rot", "shape", "q") for atom in atoms)
+    told = any(
+        atom.kind in ("verb", "dir", "rot", "shape") or (atom.kind == "q" and atom.value not in _TURNED)
+        for atom in atoms
+    )
     if denied is not None and not told and any(isinstance(step, Turn) for step in steps):
         raise Unclear("unclear_motion", denied.text)
 

@@ -104,10 +104,10 @@ class OfflineInterpreter:
         text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
         meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        reason = not_ordered(text, language) if offers else ""
+        reason = not_ordered(text, language, meant.plan) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
-        if hardly_ordered(said, language) or may_be_talk(meant, text, context):
+        if hardly_ordered(said, language) or may_be_talk(meant, text, language, context):
             return proposed(meant, language) or meant
         return meant
 

@@ -41,6 +41,7 @@ BINDING = frozenset(
 passed over."""
 DEPENDING = frozenset({"condition", "contrast", "correction", "question", "ask", "later", "FLAG"})
 """Labels of words on which it may depend whether anything is to be done, or what."""
+_NO_COMMAND = frozenset({"not", "earlier", "question", "hypothetical", "report"})
 TALKING = frozenset(
     {"social", "praise", "complaint", "verdict", "mine", "did", "does", "sees", "earlier", "kin", "thing"}
 )
@@ -134,6 +135,11 @@ class Clause:
     def tells_of_before(self) -> bool:
         """`you went to the sofa`: whether it tells what was done."""
         return any(sign.label in _PAST for sign in self.signs)
+
+    @property
+    def tells_of_command(self) -> bool:
+        """`yesterday I published linear.x 0.3`: whether a raw velocity in it is denied, asked about or told of."""
+        return self.end == "?" or any(sign.label in _NO_COMMAND for sign in self.signs)
 
     @property
     def goes_on(self) -> bool:

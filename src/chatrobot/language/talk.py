@@ -6,30 +6,40 @@ import itertools
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from chatrobot.language.acts import Read, read_acts
+from chatrobot.language.acts import MAYBE_ORDER, Read, read_acts
 from chatrobot.language.beside import SURE_ASIDE, Aside, asides
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import form, load_table
+from chatrobot.language.data_files import LANGUAGES, form, load_table
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.names import names_in
+from chatrobot.language.normalise import normalise
 from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import Rule, rules
-from chatrobot.language.signs import Clause, clauses_of, is_strong
+from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
-from chatrobot.plan.steps import RawTwist, Step
+from chatrobot.plan.steps import Drive, Plan, RawTwist, Step
 
+FAR_M = 60.0
+"""So far in one piece people tell each other the way; a robot is asked to drive it only once in a while."""
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
 _CALLING = frozenset({"person", "please"})
+_POLITE = frozenset({"please", "opening", "social"})
+_SUBJECTS = frozenset({"mine", "kin", "other", "thing"})
+_MEANT = frozenset({"VERB", "DIR", "ROT", "SHAPE", "UNIT", "PLACE"})
+"""Labels of words by which a clause could be meant for the robot, though somebody else is its subject."""
 
 
-def not_ordered(plain: str, language: str) -> str:
+def not_ordered(plain: str, language: str, plan: Plan | None) -> str:
     """Why what a normalised text seems to order is not to be done, as a reason; "" where nothing says so.
 
     It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted, or what ends
     it is for no sensor to tell.
     """
+    if plan is not None and _has_twists(plan.steps) and clauses_of(plain)[0].tells_of_command:
+        return "nothing_to_do"
     if form(language, "starting", "withdrawn").search(plain):
         return "taken_back"
     if form(language, "starting", "bounded").search(plain):
@@ -52,10 +62,15 @@ def _rules(language: str, name: str) -> tuple[Rule, ...]:
     return rules(f"talk_{language}_{name}", [(rule, "") for rule in table[name]], table["parts"])
 
 
-def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:
-    """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody."""
+def may_be_talk(meant: Interpretation, text: str, language: str, context: Context) -> bool:
+    """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody.
+
+    So is a way that is told somebody in the street: `straight on for 200 m`.
+    """
     if meant.plan is None:
         return False
+    if any(isinstance(step, Drive) and (step.distance_m or 0.0) > FAR_M for step in meant.plan.steps):
+        return True
     names = names_in(context)
     clauses = clauses_of(text, names)
     if len(clauses) < 2:
@@ -65,7 +80,11 @@ def may_be_talk(meant: Interpretation, text: str, context: Context) -> bool:
     if meant.corrects or context.dialogue.pending or _has_twists(meant.plan.steps):
         return False
     reads = read_acts(text, names)
-    return _is_bare_beside_talk(reads) or _calls_somebody(reads)
+    if _tells_of_the_person(reads):
+        return True
+    return (
+        _is_bare_beside_talk(reads) or _calls_somebody(reads, language) or _calls_a_name(reads, text, context)
+    )
 
 
 def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
@@ -81,7 +100,7 @@ def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     if any(sign.label in _ASKING for read in reads for sign in read.clause.signs):
         return False
     talk = [read for read in reads if read not in bare]
-    if any(sign.moves and not sign.label.isupper() for read in talk for sign in read.clause.signs):
+    if any(_refers(sign) for read in talk for sign in read.clause.signs):
         return False  # it points at the motion before: 一样，加二十厘米
     if talk and talk[-1] is reads[-1] and any(sign.label == "praise" for sign in reads[-1].clause.signs):
         return True
@@ -89,13 +108,66 @@ def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:
     return not is_whole and any(sign.label not in _OPENING for read in talk for sign in read.clause.signs)
 
 
-def _calls_somebody(reads: Sequence[Read]) -> bool:
-    """`Please Ben, not so fast, go back a step`: whether somebody else is called first, and the robot is not."""
-    before = [read.clause for read in itertools.takewhile(lambda read: not read.clause.moves, reads)]
+def _tells_of_the_person(reads: Sequence[Read]) -> bool:
+    """我先往右挪半米，给你让路: whether each clause that names a motion is about who speaks, and hardly an order."""
+    named = [read for read in reads if any(sign.moves and sign.label.isupper() for sign in read.clause.signs)]
+    return all(read.clause.signs[0].label == "mine" and read.log_odds < MAYBE_ORDER for read in named)
+
+
+def _refers(sign: Sign) -> bool:
+    return sign.moves and not sign.label.isupper() and sign.label != "past"
+
+
+def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
+    """`Please Ben, not so fast, go back a step`: whether somebody else is called, and the robot is not.
+
+    `Grandpa, you go back` calls nobody else: who is called is who is meant.
+    """
+    clauses = [read.clause for read in reads]
+    pronouns = load_table(language, "talk")["pronouns"]
+    if any(
+        sign.label == "robot" and sign.text not in pronouns for clause in clauses for sign in clause.signs
+    ):
+        return False
+    measured = any(clause.measures for clause in clauses)
+    if any(_tells_somebody(clause) and (clause.measures or not measured) for clause in clauses):
+        return True
+    begin = next((i for i, clause in enumerate(clauses) if clause.moves), len(clauses))
+    before, after = clauses[:begin], clauses[begin + 1 : begin + 2]
     if any(is_strong(clause.end) for clause in before):
         return False  # `thanks, Mum. Now go forward`
-    called = any("person" in labels and labels <= _CALLING for labels in map(_labels, before))
-    return called and not any("robot" in _labels(read.clause) for read in reads)
+    if measured or is_strong(clauses[begin : begin + 1][-1].end):
+        after = []
+    return any("person" in labels and labels <= _CALLING for labels in map(_labels, [*before, *after]))
+
+
+def _tells_somebody(clause: Clause) -> bool:
+    """大家都退后: whether somebody else is told to do a motion."""
+    said = [sign for sign in clause.signs if sign.label not in _POLITE]
+    labels = [sign.label for sign in said]
+    return labels[:1] == ["person"] and "VERB" in labels and not {"robot", "request"} & {*labels}
+
+
+def _calls_a_name(reads: Sequence[Read], text: str, context: Context) -> bool:
+    """`Rex, go back`: whether it begins with a name that nobody gave the robot, and tells no amount.
+
+    The robot has that name once it moved for it: `Rex, go back 1 m`, or a yes to what was proposed.
+    """
+    clause = reads[0].clause
+    name = text[clause.start : clause.stop].strip(" ,")
+    if clause.end != "," or not _is_name(clause, name) or any(read.clause.measures for read in reads):
+        return False
+    turns = [*context.dialogue.turns, *context.dialogue.turns[-1:]]
+    said = (turn for turn, after in itertools.pairwise(turns) if turn.moved or after.moved)
+    return not any(normalise(turn.text).startswith(name) for turn in said)
+
+
+def _is_name(clause: Clause, said: str) -> bool:
+    """Whether it is one word that nobody knows, or looks like a name."""
+    if any(sign.label != sign.text for sign in clause.signs):
+        return False
+    strange = len(clause.signs) == 1 and (said,) not in lexicon().words
+    return strange or any(form(code, "talk", "name").fullmatch(said) for code in LANGUAGES)
 
 
 def _labels(clause: Clause) -> set[str]:
@@ -103,8 +175,9 @@ def _labels(clause: Clause) -> set[str]:
 
 
 def _is_told(read: Read, found: Mapping[int, Aside]) -> bool:
-    """Whether a clause names no motion at all, or is surely an aside without an amount."""
-    if not any(sign.moves and sign.label.isupper() for sign in read.clause.signs):
+    """Whether a clause names no motion at all, tells of somebody, or is surely an aside without an amount."""
+    labels = [sign.label for sign in read.clause.signs if sign.moves and sign.label.isupper()]
+    if not labels or (read.clause.signs[0].label in _SUBJECTS and not _MEANT & {*labels}):
         return True
     aside = found.get(read.clause.start)
     return aside is not None and aside.odds >= SURE_ASIDE and not read.clause.tells

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from chatrobot.language.data_files import LANGUAGES, form, load_table
+from chatrobot.language.rules import Rule, rules
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -31,11 +32,16 @@ def check_consistent(text: str, language: str) -> None:
     Raises:
         Unclear: for such a text.
     """
-    table = load_table(language, "unfinished")
     asked = {"contradicts": "contradiction", "sizeless": "which_size", "unread": "unclear_motion"}
     for name, code in asked.items():
-        if any(re.search(pattern, text) for pattern in table.get(name, ())):
+        if any(rule.is_in(text) for rule in _rules(language, name)):
             raise Unclear(code, text[:_SHOWN])
+
+
+@cache
+def _rules(language: str, name: str) -> tuple[Rule, ...]:
+    listed = load_table(language, "unfinished").get(name, ())
+    return rules(f"unfinished_{language}_{name}", [(rule, "") for rule in listed], {})
 
 
 @cache
