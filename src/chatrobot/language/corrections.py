@@ -236,7 +236,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
         Unclear: where nothing is left, or an amount is negated.
     """
     out: list[Atom] = []
-    i, denied = 0, False
+    i, denied, ahead = 0, False, False
     while i < len(atoms):
         if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
             if any(a.kind == "flag" and a.value == "total" for a in atoms):
@@ -262,6 +262,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
         if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
             out.append(Atom("flag", "no_turn", "don't turn"))
         denied |= bool(scope.moves and not scope.verb)  # `drive not a circle`: the verb alone orders nothing
+        ahead |= scope.direction == "forward" and not scope.verb
         announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
         if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
@@ -269,4 +270,6 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     ordered = ("dir", "rot", "shape") if denied and not any(a.kind in _TOLD for a in out) else _ORDERED
     if len(out) < len(atoms) and not any(a.kind in ordered for a in out):
         raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
+    if ahead and not any(a.kind in ("dir", "rot", "shape", "place") for a in out):
+        raise Unclear("which_way", " ".join(a.text for a in atoms))  # `a metre, not forward`
     return out
