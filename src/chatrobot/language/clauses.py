@@ -85,7 +85,7 @@ def _counted_pairs(frames: list[Frame]) -> list[Frame]:
         return frames
     first, second = frames[0], frames[1].copy()
     plain = not (first.shape or second.shape or first.place or second.place)
-    if not plain or not first.has_extent or second.joined == "strong":
+    if not plain or not first.has_extent or second.joined == "strong" or _is_counted_first(second):
         return frames
     side = second.verb == "turn" and second.sided and not second.flags and first.verb not in TURN
     if side and second.joined == "and" and not second.has_extent and "number" not in second.q:
@@ -96,6 +96,13 @@ def _counted_pairs(frames: list[Frame]) -> list[Frame]:
         return frames
     count = Frame(joined="weak", q={"times": second.q.pop("times")})
     return [first, second, count, *frames[2:]]
+
+
+def _is_counted_first(frame: Frame) -> bool:
+    """`… and turn twice 90 degrees`: what is told before its amount counts that alone."""
+    said = [frame.q[name].text for name in ("length", "angle", "time", "turns") if name in frame.q]
+    texts, count = frame.texts, frame.q["times"].text
+    return count in texts and any(text in texts[texts.index(count) :] for text in said)
 
 
 def _is_corner(turn: Frame) -> bool:

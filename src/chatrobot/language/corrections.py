@@ -237,7 +237,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
         Unclear: where nothing is left, or an amount is negated.
     """
     out: list[Atom] = []
-    i, denied = 0, False
+    i, denied, ahead = 0, False, False
     sides: list[Atom] = []
     while i < len(atoms):
         if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
@@ -266,6 +266,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
         if scope.rot in _OTHER_ROT and not scope.verb:
             sides.append(Atom("rot", _OTHER_ROT[scope.rot], atoms[i].text))
         denied |= bool(scope.moves and not scope.verb)  # `drive not a circle`: the verb alone orders nothing
+        ahead |= scope.direction == "forward" and not scope.verb
         announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
         if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
             raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
@@ -274,4 +275,7 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     if len(out) < len(atoms) and not any(a.kind in ordered for a in out):
         raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
     sided = any(a.kind in ("dir", "rot") and a.value in _OTHER_ROT for a in out)
-    return out if sided else [*out, *sides[:1]]  # `spin once, not clockwise`
+    out = out if sided else [*out, *sides[:1]]  # `spin once, not clockwise`
+    if ahead and not any(a.kind in ("dir", "rot", "shape", "place") for a in out):
+        raise Unclear("which_way", " ".join(a.text for a in atoms))  # `a metre, not forward`
+    return out

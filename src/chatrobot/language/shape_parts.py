@@ -11,7 +11,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import form, forms, load_table
+from chatrobot.language.data_files import LANGUAGES, form, forms, load_table
+from chatrobot.language.gloss import gloss
 from chatrobot.language.normalise import normalise
 from chatrobot.language.rephrase import plain_text
 from chatrobot.language.unclear import Unclear
@@ -39,7 +40,8 @@ def part_of_shape(plain: str, language: str, dialogue: Dialogue, read: Read) -> 
 
 def asks_for_rest(text: str, language: str) -> bool:
     """Whether a text asks for what is missing to a shape, if one was begun."""
-    return _said("rest", normalise(text), language) is not None
+    known = text if language in LANGUAGES else gloss(text, language).text
+    return _said("rest", normalise(known), language) is not None
 
 
 def _cut(plain: str, language: str) -> tuple[str, int] | None:
