@@ -6,7 +6,7 @@ import itertools
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +18,7 @@ from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
-from chatrobot.plan.ring import Point, ring_around
+from chatrobot.plan.ring import RING_MARGIN_M, Point, ring_around
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 _FILE = "places.json"
 AT_PLACE_M = 1.0
 """What stands within this of a named place is what the place is named after."""
-RING_MARGIN_M = 0.12
-"""How far a robot keeps from what it drives around."""
 
 
 class Places:
@@ -138,11 +136,27 @@ class MapWays:
 
     def __call__(self, start: Pose, goal: Pose) -> float | None:
         """Metres; None where there is no free way."""
-        way = self._planner.route(start, (goal.x_m, goal.y_m), named_place=True)
-        if not isinstance(way, Route):
-            return None
-        points = [(start.x_m, start.y_m), *way.waypoints]
-        return sum(math.dist(one, other) for one, other in itertools.pairwise(points))
+        way = self._way(start, goal)
+        return _length_m(way) if way else None
+
+    def _way(self, start: Pose, goal: Pose) -> list[Point]:
+        """The corners of the way, the first and the last point, too; none where there is no free way."""
+        here, there = (start.x_m, start.y_m), (goal.x_m, goal.y_m)
+        if not self.world.obstacles:
+            return [here, there]
+        way = self._planner.route(start, there, named_place=True)
+        return [here, *way.waypoints] if isinstance(way, Route) else []
+
+    def along(self, start: Pose, goal: Pose, share: float) -> Point | None:
+        """Return the point after that share of the way; None where there is no free way."""
+        way = self._way(start, goal)
+        left_m = share * _length_m(way)
+        for (ax, ay), (bx, by) in itertools.pairwise(way):
+            leg_m = math.dist((ax, ay), (bx, by))
+            if leg_m and leg_m >= left_m:
+                return ax + (bx - ax) * left_m / leg_m, ay + (by - ay) * left_m / leg_m
+            left_m -= leg_m
+        return None
 
     def ring(self, place: Pose) -> tuple[Point, ...]:
         """Return the corners, counter-clockwise, of the way once around what stands at a place.
@@ -158,3 +172,7 @@ class MapWays:
         return ring_around(
             self.world.obstacles[k].shape.outline(), self._profile.footprint_radius_m + RING_MARGIN_M
         )
+
+
+def _length_m(way: Sequence[Point]) -> float:
+    return sum(math.dist(one, other) for one, other in itertools.pairwise(way))

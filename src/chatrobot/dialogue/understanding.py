@@ -147,7 +147,8 @@ class Understanding:
 
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        known = (self.world_places, without_heading, self._names, self.ways.any, self.ways.ring)
+        ways = self.ways
+        known = (self.world_places, without_heading, self._names, ways.any, ways.ring, ways.along)
         return Context(dialogue, self._state, *known, self.language)
 
     def can_do(self, text: str) -> bool:
