@@ -9,7 +9,8 @@ from functools import cache, lru_cache
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.quantities import read_quantities
+from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Plan
 
@@ -18,6 +19,9 @@ _IS = frozenset(
 )
 
 
+_APART = frozenset({"each", "between", "after_each"})
+_NOUNS = frozenset({"filler", "glue", "counter", "verb"})
+"""What else a word may mean whose length is told: `my stride is 70 cm`."""
 _FACTORS = {
     "half": 0.5, "twice": 2.0, "double": 2.0, "two times": 2.0, "three times": 3.0, "thrice": 3.0,
     "a third": 1 / 3, "a quarter": 0.25,
@@ -50,31 +54,50 @@ def _measured_things() -> tuple[tuple[str, str], ...]:
 def with_measured_things(text: str) -> str:
     """`my ruler is 30 cm long, go ahead three rulers` → `go ahead three times 30 cm`, for a thing of no other meaning.
 
+    `The tiles are 30 cm each, go ahead seven of them`, too. A shape that is told with `the`, and that the rest does not
+    name, is a thing that stands there: `the box is 40 cm wide, drive 2 m`.
+
     Raises:
         Unclear: for an amount that belongs to a thing which is not counted then.
     """
     for said, counted in _measured_things():
         found = re.search(said, text)
-        if found is None or _is_known(found["thing"]):
+        if found is None:
             continue
         rest = f"{text[: found.start()]} {text[found.end() :]}".strip()
+        kinds = _kinds_of(found["thing"])
+        if "shape" in kinds and found["thing"] not in rest and any(map(_is_length, _quantities(rest))):
+            raise Unclear("unknown_part", found[0].strip(" ,.;:"))
+        if kinds - _NOUNS or (found["one"] and "counter" in kinds):  # `each step is 20 cm`: `with_defined_units`
+            continue
         number = re.compile(counted.replace("THING", re.escape(found["thing"])))
         if number.search(rest):
             measure = found["measure"]
-            return number.sub(lambda m, measure=measure: _so_many(m["count"], measure), rest)  # type: ignore[misc]
+            return number.sub(lambda m, measure=measure, rest=rest: _so_many(m["count"], measure, rest), rest)  # type: ignore[misc]
         raise Unclear("unknown_part", found[0].strip(" ,.;:"))
     return text
 
 
-def _is_known(thing: str) -> bool:
-    """Whether it is a word that means something in a command: a side, a step, a radius."""
+def _kinds_of(thing: str) -> set[str]:
+    """What the word means in a command: a side, a shape, what is counted in."""
     words = lexicon().words
-    meanings = [meaning for end in ("", "s") for meaning in words.get((thing + end,), ())]
-    return any(kind not in ("filler", "glue") for kind, _ in meanings)
+    return {kind for end in ("", "s") for kind, _ in words.get((thing + end,), ())}
 
 
-def _so_many(count: str, measure: str) -> str:
-    return measure if count in ("a", "an", "one", "1") else f"{count} times {measure}"
+def _quantities(text: str) -> list[Atom]:
+    return read_quantities(tokenise(text, lexicon(), {}))
+
+
+def _is_length(atom: Atom) -> bool:
+    return atom.kind == "q" and atom.value == "length"
+
+
+def _so_many(count: str, measure: str, rest: str) -> str:
+    """`three` of `30 cm` each: one length, unless something is to be done between them."""
+    amounts = [a for said in (count, measure) for a in _quantities(said) if a.kind == "q"]
+    if any(a.kind == "flag" and a.value in _APART for a in _quantities(rest)) or len(amounts) < 2:
+        return measure if count in ("a", "an", "one", "1") else f"{count} times {measure}"
+    return f"{amounts[0].number * amounts[1].number:g} m"
 
 
 def defined_unit(text: str) -> tuple[str, str] | None:
@@ -141,7 +164,7 @@ def with_defined_units(atoms: Sequence[Atom]) -> list[Atom]:
         start = i - 1 if i and atoms[i - 1].kind == "num" else i
         rest = [*atoms[:start], *atoms[end + 1 :]]
         if any(a.kind == "q" and a.value == "count" and a.role == role for a in rest):
-            if any(a.kind == "flag" and a.value in ("each", "between", "after_each") for a in rest):
+            if any(a.kind == "flag" and a.value in _APART for a in rest):
                 unit = quantity("length", atoms[end].number, atoms[end].text, "1.0")
                 at = next(k for k, a in enumerate(rest) if a.kind == "q" and a.role == role)
                 return [*rest[: at + 1], unit, *rest[at + 1 :]]

@@ -30,8 +30,8 @@ from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.restated import without_lone_way, without_restated
 from chatrobot.language.returning import back_to_places
-from chatrobot.language.standing import by_places, stood
 from chatrobot.language.script import Memory
+from chatrobot.language.standing import by_places, stood
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear

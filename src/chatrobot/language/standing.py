@@ -153,7 +153,7 @@ def stood(said: str, places: Mapping[str, Go], context: Context) -> Go | None:
     backs = [(2.0 * mx - x, 2.0 * my - y) for x, y in ((goal.x_m, goal.y_m), (here.x_m, here.y_m))]
     bearings = [math.atan2(y - my, x - mx) for x, y in backs]
     if abs(math.remainder(bearings[0] - bearings[1], 2.0 * math.pi)) > _FAR_SIDE_RAD:
-        raise Unclear("which_side", names[0])  # behind it from here, or at its back?
+        raise Unclear("behind_what", names[0])  # beyond it from here, or at its back?
     return _to(*point_beside(ring, backs[0], extra_m))
 
 
