@@ -138,7 +138,8 @@ def _known(frame: Frame, script: Script) -> list[Step]:
         return []
     goes_around = AROUND in frame.flags
     turns = bool(frame.rot) and not goes_around
-    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or turns:
+    partly = "number" in frame.q or "halfway" in frame.flags  # `half to the sofa` is not all of the way
+    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or turns or partly:
         raise Unclear("unclear_motion", frame.text)
     places, standing = script.memory.places, script.memory.standing
     go = places.get(frame.place) or (standing(frame.place, places) if standing else None)
