@@ -63,7 +63,7 @@ def _related(atoms: list[Atom], i: int) -> int:
     goes = verb >= 0 and atoms[verb].kind == "verb" and atoms[verb].value in _GOES
     begins = verb < 0 or atoms[verb].kind in ("sep", "conn")
     told = relation not in ("near", "front") or any(atom.kind == "verb" for atom in atoms[start:end])
-    if not goes and not (begins and told):
+    if (not goes and not (begins and told)) or (goes and _is("stays", [atoms[verb]])):
         return i
     said = " ".join(atom.text for atom in atoms[verb + 1 : end])
     value = _MARK.join((relation, f"{off.number:g}" if off else "", *names))
