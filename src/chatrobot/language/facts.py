@@ -68,9 +68,8 @@ def with_measured_things(text: str) -> str:
         kinds = _kinds_of(found["thing"])
         if "shape" in kinds and found["thing"] not in rest and any(map(_is_length, _quantities(rest))):
             raise Unclear("unknown_part", found[0].strip(" ,.;:"))
-        if kinds - _NOUNS or (
-            found["one"] and "counter" in kinds
-        ):  # `each step is 20 cm`: `with_defined_units`
+        is_told_of_one = found["one"] and not found["sort"]  # `each step is 20 cm`: `with_defined_units`
+        if kinds - _NOUNS or (is_told_of_one and "counter" in kinds):
             continue
         number = re.compile(counted.replace("THING", re.escape(found["thing"])))
         if number.search(rest):
