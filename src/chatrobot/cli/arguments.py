@@ -203,6 +203,7 @@ def _do(parser: argparse.ArgumentParser) -> None:
 
 def _plan(parser: argparse.ArgumentParser) -> None:
     _add(parser, "text", metavar="TEXT", help="what the robot would have to do")
+    _add(parser, "--explain", action="store_true", help="say how it was read, and what is the next likeliest")
     _add(parser, "--png", "files", metavar="FILE", help="draw the way it would take into a picture")
 
 

@@ -41,6 +41,8 @@ def run(args: argparse.Namespace) -> int:
     session = connection.session
     result = session.do(args.text)
     connection.close()
+    if args.explain:
+        print("\n".join(session.understanding.why()), file=sys.stderr if args.json else sys.stdout)
     if png is not None:
         if rehearsed:
             from chatrobot.cli.draw import draw_plan

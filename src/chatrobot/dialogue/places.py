@@ -6,19 +6,21 @@ import itertools
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import InputError
+from chatrobot.core.events import Finished, Telemetry
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import one_line
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
+from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
-from chatrobot.plan.ring import Point, ring_around
+from chatrobot.plan.ring import RING_MARGIN_M, Point, ring_around
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -27,10 +29,11 @@ if TYPE_CHECKING:
 
 
 _FILE = "places.json"
+MOVED = "cannot_undo_moved"
+ODOMETRY_ANEW = "cannot_undo_odometry_anew"
+UNMEASURED = "cannot_undo_unmeasured"
 AT_PLACE_M = 1.0
 """What stands within this of a named place is what the place is named after."""
-RING_MARGIN_M = 0.12
-"""How far a robot keeps from what it drives around."""
 
 
 class Places:
@@ -112,6 +115,41 @@ class Places:
         os.replace(beside, self._path)
 
 
+class RestWatch:
+    """Watches whether the robot still stands where our last turn left it, and in the same odometry.
+
+    Each method returns why what was done before cannot be undone any more: a code, empty while it can.
+    """
+
+    def __init__(self) -> None:
+        self._rest: Pose | None = None
+        self._odometry_epoch: int | None = None
+
+    def hear(self, event: Telemetry, *, is_ours: bool) -> str:
+        """Compare where the robot is. `is_ours`: a turn of ours moves it, or may."""
+        before, self._odometry_epoch = self._odometry_epoch, event.odometry_epoch
+        if before is not None and before != event.odometry_epoch:
+            return ODOMETRY_ANEW
+        return "" if is_ours else self._displaced(event.pose)
+
+    def begin(self, finished: Finished) -> str:
+        """Compare where the robot was when the turn that has ended began."""
+        return self._displaced(finished.start)
+
+    def end(self, finished: Finished) -> str:
+        """Note where a turn has ended, and whether somebody else drives on."""
+        self._rest = finished.pose
+        handed_over = finished.reason is not None and finished.reason.code == "handed_over"
+        return MOVED if handed_over else ""
+
+    def _displaced(self, pose: Pose) -> str:
+        rest = self._rest
+        if rest is None:
+            return ""
+        off_rad = abs(pose.yaw_rad - rest.yaw_rad)
+        return MOVED if pose.distance_to(rest) > LAPSES_AFTER_M or off_rad > LAPSES_AFTER_RAD else ""
+
+
 class MapWays:
     """Measures ways of one robot in one world. numpy is loaded with the first question, not with the console."""
 
@@ -138,11 +176,27 @@ class MapWays:
 
     def __call__(self, start: Pose, goal: Pose) -> float | None:
         """Metres; None where there is no free way."""
-        way = self._planner.route(start, (goal.x_m, goal.y_m), named_place=True)
-        if not isinstance(way, Route):
-            return None
-        points = [(start.x_m, start.y_m), *way.waypoints]
-        return sum(math.dist(one, other) for one, other in itertools.pairwise(points))
+        way = self._way(start, goal)
+        return _length_m(way) if way else None
+
+    def _way(self, start: Pose, goal: Pose) -> list[Point]:
+        """The corners of the way, the first and the last point, too; none where there is no free way."""
+        here, there = (start.x_m, start.y_m), (goal.x_m, goal.y_m)
+        if not self.world.obstacles:
+            return [here, there]
+        way = self._planner.route(start, there, named_place=True)
+        return [here, *way.waypoints] if isinstance(way, Route) else []
+
+    def along(self, start: Pose, goal: Pose, share: float) -> Point | None:
+        """Return the point after that share of the way; None where there is no free way."""
+        way = self._way(start, goal)
+        left_m = share * _length_m(way)
+        for (ax, ay), (bx, by) in itertools.pairwise(way):
+            leg_m = math.dist((ax, ay), (bx, by))
+            if leg_m and leg_m >= left_m:
+                return ax + (bx - ax) * left_m / leg_m, ay + (by - ay) * left_m / leg_m
+            left_m -= leg_m
+        return None
 
     def ring(self, place: Pose) -> tuple[Point, ...]:
         """Return the corners, counter-clockwise, of the way once around what stands at a place.
@@ -158,3 +212,7 @@ class MapWays:
         return ring_around(
             self.world.obstacles[k].shape.outline(), self._profile.footprint_radius_m + RING_MARGIN_M
         )
+
+
+def _length_m(way: Sequence[Point]) -> float:
+    return sum(math.dist(one, other) for one, other in itertools.pairwise(way))

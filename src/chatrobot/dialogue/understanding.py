@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.places import MapWays, Places
+from chatrobot.dialogue.places import UNMEASURED, MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
@@ -20,7 +20,6 @@ from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
 from chatrobot.language.phrases import describe_steps, render_reason, say
-from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
@@ -28,46 +27,6 @@ from chatrobot.sim.world import World
 
 if TYPE_CHECKING:
     from chatrobot.dialogue.llm.terms import Ended
-
-
-MOVED = "cannot_undo_moved"
-ODOMETRY_ANEW = "cannot_undo_odometry_anew"
-UNMEASURED = "cannot_undo_unmeasured"
-
-
-class RestWatch:
-    """Watches whether the robot still stands where our last turn left it, and in the same odometry.
-
-    Each method returns why what was done before cannot be undone any more: a code, empty while it can.
-    """
-
-    def __init__(self) -> None:
-        self._rest: Pose | None = None
-        self._odometry_epoch: int | None = None
-
-    def hear(self, event: Telemetry, *, is_ours: bool) -> str:
-        """Compare where the robot is. `is_ours`: a turn of ours moves it, or may."""
-        before, self._odometry_epoch = self._odometry_epoch, event.odometry_epoch
-        if before is not None and before != event.odometry_epoch:
-            return ODOMETRY_ANEW
-        return "" if is_ours else self._displaced(event.pose)
-
-    def begin(self, finished: Finished) -> str:
-        """Compare where the robot was when the turn that has ended began."""
-        return self._displaced(finished.start)
-
-    def end(self, finished: Finished) -> str:
-        """Note where a turn has ended, and whether somebody else drives on."""
-        self._rest = finished.pose
-        handed_over = finished.reason is not None and finished.reason.code == "handed_over"
-        return MOVED if handed_over else ""
-
-    def _displaced(self, pose: Pose) -> str:
-        rest = self._rest
-        if rest is None:
-            return ""
-        off_rad = abs(pose.yaw_rad - rest.yaw_rad)
-        return MOVED if pose.distance_to(rest) > LAPSES_AFTER_M or off_rad > LAPSES_AFTER_RAD else ""
 
 
 class Instruction(NamedTuple):
@@ -111,6 +70,8 @@ class Understanding:
         self._rest = RestWatch()
         self._started = False
         self.language: LanguageCode = "en"
+        self._last: tuple[str, Context] | None = None
+        """The text that was interpreted last, and what was known then."""
 
     @property
     def pose(self) -> Pose:
@@ -136,7 +97,8 @@ class Understanding:
         """Return what `text` means now. Instructions that are under way are read as turns before."""
         turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
         dialogue = replace(self._dialogue, turns=turns, places=self.places.all())
-        meant = self._interpreter.interpret(text, self._context(dialogue))
+        self._last = (text, self._context(dialogue))
+        meant = self._interpreter.interpret(*self._last)
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
             code = UNHEARD if self.is_measured else "answer_unmeasured"
@@ -145,9 +107,18 @@ class Understanding:
             meant = Interpretation("refused", say(self.language, "only_simulated"), self.language)
         return meant
 
+    def why(self) -> list[str]:
+        """Return lines on how the last text was read, and what came of it."""
+        from chatrobot.language.explaining import explain
+
+        if self._last is None:
+            return [say(self.language, "why_nothing_said")]
+        return explain(*self._last, self._interpreter)
+
     def _context(self, dialogue: Dialogue) -> Context:
         without_heading = self._without_heading - dialogue.places.keys()
-        known = (self.world_places, without_heading, self._names, self.ways.any, self.ways.ring)
+        ways = self.ways
+        known = (self.world_places, without_heading, self._names, ways.any, ways.ring, ways.along)
         return Context(dialogue, self._state, *known, self.language)
 
     def can_do(self, text: str) -> bool:

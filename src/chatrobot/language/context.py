@@ -86,6 +86,7 @@ class Context:
     place_names: tuple[tuple[str, ...], ...] = ()
     ways: Callable[[Pose, Pose], float | None] | None = None
     rings: Callable[[Pose], Sequence[tuple[float, float]]] | None = None
+    along: Callable[[Pose, Pose, float], tuple[float, float] | None] | None = None
     language: LanguageCode | None = None
 
     @property

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.quantities import read_quantities
+from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Drive, Plan
 
@@ -18,6 +19,9 @@ _IS = frozenset(
 )
 
 
+_APART = frozenset({"each", "between", "after_each"})
+_NOUNS = frozenset({"filler", "glue", "counter", "verb"})
+"""What else a word may mean whose length is told: `my stride is 70 cm`."""
 _FACTORS = {
     "half": 0.5, "twice": 2.0, "double": 2.0, "two times": 2.0, "three times": 3.0, "thrice": 3.0,
     "a third": 1 / 3, "a quarter": 0.25,
@@ -50,30 +54,58 @@ def _measured_things() -> tuple[dict[str, str], ...]:
 def with_measured_things(text: str) -> str:
     """`my ruler is 30 cm long, go ahead three rulers` → `go ahead three times 30 cm`, for a thing of no other meaning.
 
-    The words are `[measured]` of `facts.toml`.
+    `The tiles are 30 cm each, go ahead seven of them`, too. A shape that is told with `the`, and that the rest does not
+    name, is a thing that stands there: `the box is 40 cm wide, drive 2 m`. The words are `[measured]`
+    of `facts.toml`.
 
     Raises:
         Unclear: for an amount that belongs to a thing which is not counted then.
     """
     for way in _measured_things():
         found = re.search(way["said"], text)
-        if found is None or _is_known(found["thing"]):
+        if found is None:
             continue
         rest = f"{text[: found.start()]} {text[found.end() :]}".strip()
+        kinds = _kinds_of(found["thing"])
+        if "shape" in kinds and found["thing"] not in rest and any(map(_is_length, _quantities(rest))):
+            raise Unclear("unknown_part", found[0].strip(" ,.;:"))
+        groups = found.groupdict()
+        is_told_of_one = groups.get("one") and not groups.get(
+            "sort"
+        )  # `each step is 20 cm`: `with_defined_units`
+        if kinds - _NOUNS or (is_told_of_one and "counter" in kinds):
+            continue
         number = re.compile(way["counted"].replace("THING", re.escape(found["thing"])))
         if number.search(rest):
-            said = number.sub(way["so_many"].replace("MEASURE", found["measure"]), rest)
-            return re.sub(way["once"].replace("MEASURE", re.escape(found["measure"])), found["measure"], said)
+            measure = found["measure"]
+            said = number.sub(partial(_so_many, way, measure), rest)
+            return re.sub(way["once"].replace("MEASURE", re.escape(measure)), measure, said)
         raise Unclear("unknown_part", found[0].strip(" ,.;:"))
     return text
 
 
-def _is_known(thing: str) -> bool:
-    """Whether it is a word that means something in a command: a side, a step, a radius."""
+def _kinds_of(thing: str) -> set[str]:
+    """What the word means in a command: a side, a shape, what is counted in."""
     words = lexicon().words
     named = [(thing,), (f"{thing}s",), tuple(thing)]  # Chinese words are listed by their characters
-    meanings = [meaning for name in named for meaning in words.get(name, ())]
-    return any(kind not in ("filler", "glue") for kind, _ in meanings)
+    return {kind for name in named for kind, _ in words.get(name, ())}
+
+
+def _quantities(text: str) -> list[Atom]:
+    return read_quantities(tokenise(text, lexicon(), {}))
+
+
+def _is_length(atom: Atom) -> bool:
+    return atom.kind == "q" and atom.value == "length"
+
+
+def _so_many(way: Mapping[str, str], measure: str, counted: re.Match[str]) -> str:
+    """`three` of `30 cm` each: one length, unless something is to be done between them."""
+    amounts = [a for said in (counted["count"], measure) for a in _quantities(said) if a.kind == "q"]
+    is_apart = any(a.kind == "flag" and a.value in _APART for a in _quantities(counted.string))
+    if is_apart or len(amounts) < 2 or counted.groupdict().get("half"):
+        return counted.expand(way["so_many"].replace("MEASURE", measure))
+    return f"{amounts[0].number * amounts[1].number:g} m"
 
 
 def defined_unit(text: str) -> tuple[str, str] | None:
@@ -140,7 +172,7 @@ def with_defined_units(atoms: Sequence[Atom]) -> list[Atom]:
         start = i - 1 if i and atoms[i - 1].kind == "num" else i
         rest = [*atoms[:start], *atoms[end + 1 :]]
         if any(a.kind == "q" and a.value == "count" and a.role == role for a in rest):
-            if any(a.kind == "flag" and a.value in ("each", "between", "after_each") for a in rest):
+            if any(a.kind == "flag" and a.value in _APART for a in rest):
                 unit = quantity("length", atoms[end].number, atoms[end].text, "1.0")
                 at = next(k for k, a in enumerate(rest) if a.kind == "q" and a.role == role)
                 return [*rest[: at + 1], unit, *rest[at + 1 :]]

@@ -31,6 +31,7 @@ from chatrobot.language.quantities import read_quantities
 from chatrobot.language.restated import without_lone_way, without_restated
 from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
+from chatrobot.language.standing import by_places, stood
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
@@ -75,7 +76,8 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = around_places(tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear))
-        atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(read_quantities(atoms))))))
+        atoms = by_places(read_quantities(atoms))
+        atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(atoms)))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))
         if any(a.kind == "role" and a.value == "apart" for a in atoms):  # rows side by side, no garden work
@@ -126,7 +128,13 @@ class Reading:
         for name in context.places_without_heading:
             places[name] = replace(places[name], yaw_rad=None)
         words = {name: plan.steps for name, plan in dialogue.words.items()}
-        return Memory(places, words, state_after(self.context), lambda go: once_around(go, self.context))
+        return Memory(
+            places,
+            words,
+            state_after(self.context),
+            lambda go: once_around(go, self.context),
+            lambda said, known: stood(said, known, self.context),
+        )
 
 
 def _goes_on_after_undo(frames: Sequence[Frame]) -> bool:

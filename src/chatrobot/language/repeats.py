@@ -145,7 +145,7 @@ def is_heading_back(script: Script, frame: Frame) -> bool:
     rounds = round(2 * math.pi / turned) if turned else 0
     if rounds < 1 or abs(rounds * turned - 2 * math.pi) > 1e-6:
         raise Unclear("condition", frame.text)
-    script.units = repeated(once, rounds)
+    script.units = _until_done(once, rounds)
     return True
 
 
@@ -167,7 +167,7 @@ def fill_up(script: Script, frame: Frame) -> None:
     rounds = wanted.number / done if done else 0.0
     if abs(rounds - round(rounds)) > 1e-6 or not 1 <= round(rounds) <= MAX_REPEAT:
         raise Unclear("condition", frame.text)
-    script.units = repeated(once, round(rounds))
+    script.units = _until_done(once, round(rounds))
 
 
 def period(units: list[list[Step]]) -> list[list[Step]]:
@@ -179,16 +179,19 @@ def period(units: list[list[Step]]) -> list[list[Step]]:
 
 
 def repeated(units: list[list[Step]], count: int) -> list[list[Step]]:
-    """The units so often; a pause at the very end, after which nothing comes, is left out."""
+    """The units so often, a pause at their end, too: `30 cm, wait 1 s, six times` has six pauses."""
     if not units:
         raise Unclear("nothing_before")
     whole = [step for unit in units for step in unit]
     if count * len(whole) > 400:
         return [[Repeat(count, tuple(whole))]]
-    out = [list(unit) for unit in units * count]
-    if count > 1 and all(isinstance(step, Wait) for step in out[-1]):
-        out.pop()
-    return out
+    return [list(unit) for unit in units * count]
+
+
+def _until_done(units: list[list[Step]], count: int) -> list[list[Step]]:
+    """The units so often; what they are done for is reached before a pause at the very end."""
+    out = repeated(units, count)
+    return out[:-1] if count > 1 and all(isinstance(step, Wait) for step in out[-1]) else out
 
 
 def _total_turn(steps: list[Step]) -> float:

@@ -6,6 +6,7 @@ Plain rewriting of normalised text, by the patterns of `rephrase.toml`, before a
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import cache, lru_cache
 
 from chatrobot.language.data_files import load_table
@@ -107,15 +108,29 @@ def _of_wishes(text: str, language: str) -> str:
 @lru_cache(maxsize=256)
 def rephrased(text: str, language: str) -> str:
     """`text` (normalised) in the words that the rest of the package reads."""
+    text = _spelled_out(text, language)
+    for rule in _rules(language):
+        text = rule.applied(text)
+    return text
+
+
+def rewritings(text: str, language: str) -> Iterator[tuple[int, str, str]]:
+    """Each rule that changes `text` (normalised), by its number in the file; what it matches, and the text after it."""
+    text = _spelled_out(text, language)
+    for number, rule in enumerate(_rules(language), 1):
+        before, text = text, rule.applied(text)
+        found = rule.pattern.search(before) if text != before else None
+        if found is not None:
+            yield number, found[0], text
+
+
+def _spelled_out(text: str, language: str) -> str:
     text = _of_wishes(text, language)
     text = without_numbers(_without_heading(text, language))
     written, pattern = _contractions(language)
     text = pattern.sub(lambda found: written[found[0]], text)
     spoken, dialect = _dialect(language)
-    text = dialect.sub(lambda found: spoken[found[0]], text)
-    for rule in _rules(language):
-        text = rule.applied(text)
-    return text
+    return dialect.sub(lambda found: spoken[found[0]], text)
 
 
 def with_breaks(text: str, language: str) -> str:

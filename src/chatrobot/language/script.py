@@ -23,6 +23,7 @@ class Memory:
     words: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
     state: State = field(default_factory=State)
     around: Callable[[Go], list[Go]] | None = None
+    standing: Callable[[str, Mapping[str, Go]], Go | None] | None = None
 
 
 @dataclass
@@ -137,9 +138,11 @@ def _known(frame: Frame, script: Script) -> list[Step]:
         return []
     goes_around = AROUND in frame.flags
     turns = bool(frame.rot) and not goes_around
-    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or turns:
+    partly = "number" in frame.q or "halfway" in frame.flags  # `half to the sofa` is not all of the way
+    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or turns or partly:
         raise Unclear("unclear_motion", frame.text)
-    go = script.memory.places.get(frame.place)
+    places, standing = script.memory.places, script.memory.standing
+    go = places.get(frame.place) or (standing(frame.place, places) if standing else None)
     if go is None:
         raise Unclear("place_unusable", frame.place)
     faces = PLACE_HEADING in frame.flags

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 
 Point = tuple[float, float]
 
+RING_MARGIN_M = 0.12
+"""How far a robot keeps from what it drives around."""
 _MOST_CORNERS = 8
 _SAME_M = 1e-3
 
@@ -70,3 +72,21 @@ def _outwards(before: Point, at: Point, after: Point, off_m: float) -> Point:
     )
     far_m = off_m / math.cos(turn / 2.0)
     return at[0] + far_m * math.cos(first + turn / 2.0), at[1] + far_m * math.sin(first + turn / 2.0)
+
+
+def point_beside(ring: Sequence[Point], towards: Point, off_m: float = 0.0) -> Point:
+    """Return the point of a convex ring, `off_m` farther out, on the way from its middle towards a point."""
+    middle = middle_of(ring)
+    way_m = math.dist(middle, towards)
+    ux, uy = ((towards[0] - middle[0]) / way_m, (towards[1] - middle[1]) / way_m) if way_m else (1.0, 0.0)
+    reach_m = math.inf
+    for (ax, ay), (bx, by) in zip(ring, [*ring[1:], ring[0]]):
+        out = (by - ay) * ux - (bx - ax) * uy
+        if out > 0.0:
+            reach_m = min(reach_m, ((by - ay) * (ax - middle[0]) - (bx - ax) * (ay - middle[1])) / out)
+    return middle[0] + (reach_m + off_m) * ux, middle[1] + (reach_m + off_m) * uy
+
+
+def middle_of(ring: Sequence[Point]) -> Point:
+    """Return the mean of the corners."""
+    return sum(x for x, _ in ring) / len(ring), sum(y for _, y in ring) / len(ring)

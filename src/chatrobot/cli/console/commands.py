@@ -102,6 +102,10 @@ def _plan(controller: ChatController, _: str) -> None:
         controller.tell("no_plan")
 
 
+def _why(controller: ChatController, _: str) -> None:
+    controller.display.print(*(Text(f"  {line}") for line in controller.session.understanding.why()))
+
+
 def _save_plan(controller: ChatController, argument: str) -> None:
     if not argument or not controller.motion_view.plan_text:
         controller.tell("no_plan" if argument else "save_which")
@@ -197,6 +201,7 @@ COMMANDS = (
     Command("world", _world),
     Command("places", _places),
     Command("plan", _plan),
+    Command("why", _why),
     Command("save-plan", _save_plan, takes="FILE"),
     Command("run-plan", _run_plan, takes="FILE"),
     Command("program", _program, takes="[TEXT]"),
