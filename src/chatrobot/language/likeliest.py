@@ -29,6 +29,7 @@ from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.set_off import set_off
 from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
@@ -110,11 +111,12 @@ def likeliest(
     rest = _Rest(plain, list(reads))
     # A question that a fact answers is not passed over for a motion, nor is the motion for it.
     odds = asides(reads) if problem.code != "question_beside" else {}
+    apart = set_off(plain, reads, language) if odds else []
     told = [read for read in reads if is_sure_aside(read.clause, odds) and _is_no_part(read, reads, odds)]
-    for clause in [clause for clause in reads if clause in told or _is_sure_talk(clause, best)]:
+    for clause in [clause for clause in reads if clause in (*apart, *told) or _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
-    is_sure = bool(told) or not problem.refused
-    is_sure &= not any_may_bear(reads, [read for read in reads if read not in rest.kept])
+    is_sure = bool(apart or told) or not problem.refused
+    is_sure &= not any_may_bear(reads, [read for read in reads if read not in (*rest.kept, *apart)])
     for _ in range(MOST_PARTS + 1):
         try:
             found = read(rest.text)
