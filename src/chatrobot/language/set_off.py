@@ -20,7 +20,7 @@ _COUNTS = frozenset({"NUMBER", "FRACTION", "SCALE"})
 _UNITS = frozenset({"UNIT", "SECOND", "TIMES", "FULLTURN"})
 _SIZES = frozenset({"SHAPE", "FULLTURN"})
 _WAYS = frozenset({"DIR", "ROT"})
-_SHOWN_MARKS = " ,.;:!—~…-"
+_MARKS = " ,.;:!。、—~…-"
 
 
 def set_off(plain: str, reads: Sequence[Read], language: str) -> list[Read]:
@@ -72,7 +72,7 @@ def _is_adjective(before: Sign | None, sign: Sign) -> bool:
 def _is(clause: Clause, plain: str, name: str, language: str) -> bool:
     said = plain[clause.start : clause.stop].strip()
     # A mark tells a heading from a call; a question is never passed over.
-    text = said.rstrip(_SHOWN_MARKS) + (clause.end if clause.end in (":", "!") else "")
+    text = said.rstrip(_MARKS) + (clause.end if clause.end in (":", "!") else "")
     return clause.end != "?" and any(rule.is_in(text) for rule in _rules(language, name))
 
 
