@@ -13,6 +13,7 @@ from functools import cache
 
 from chatrobot.language.acts import ORDER, Read
 from chatrobot.language.data_files import load_table
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.rules import Rule, rules
 from chatrobot.language.signs import Clause, Sign
 
@@ -20,6 +21,7 @@ _COUNTS = frozenset({"NUMBER", "FRACTION", "SCALE"})
 _UNITS = frozenset({"UNIT", "SECOND", "TIMES", "FULLTURN"})
 _SIZES = frozenset({"SHAPE", "FULLTURN"})
 _WAYS = frozenset({"DIR", "ROT"})
+_AGAIN = ("flag", "again")
 _MARKS = " ,.;:!。、—~…-"
 
 
@@ -42,23 +44,30 @@ def is_doubted(plain: str, clauses: Sequence[Clause], language: str) -> bool:
     if not sized:
         return False
     ahead = any(_is(clause, plain, "doubted_ahead", language) for clause in clauses[: sized[0]])
-    behind = clauses[sized[0] + 1 :]
-    return ahead or any(not _is_sized(c) and _is(c, plain, "doubted_behind", language) for c in behind)
+    return ahead or any(_is(clause, plain, "doubted_behind", language) for clause in clauses[sized[0] + 1 :])
 
 
 def _is_whole_order(read: Read) -> bool:
-    """Whether a clause says what to do and how much, and not what is done by whom."""
-    return read.log_odds >= ORDER and _is_sized(read.clause)
+    """Whether a clause says what to do and how much, or asks for the motion before once more."""
+    return read.log_odds >= ORDER and (_is_sized(read.clause) or any(map(_repeats, read.clause.signs)))
+
+
+def _repeats(sign: Sign) -> bool:
+    return sign.label == "FLAG" and _AGAIN in lexicon().words.get(tuple(sign.text.split("_")), ())
 
 
 def _is_sized(clause: Clause) -> bool:
     labels = [sign.label for sign in clause.signs]
-    return bool(_SIZES & {*labels}) or any(a in _COUNTS and b in _UNITS for a, b in itertools.pairwise(labels))
+    return bool(_SIZES & {*labels}) or any(
+        a in _COUNTS and b in _UNITS for a, b in itertools.pairwise(labels)
+    )
 
 
 def _has_amount(clause: Clause) -> bool:
     """Whether it has a number with a unit, or a shape; `you are square with the wall` names none."""
-    named = [sign for before, sign in zip((None, *clause.signs), clause.signs) if not _is_adjective(before, sign)]
+    named = [
+        sign for before, sign in zip((None, *clause.signs), clause.signs) if not _is_adjective(before, sign)
+    ]
     labels = [sign.label for sign in named]
     if _SIZES & {*labels} or _WAYS & {*labels}:
         return True
