@@ -116,7 +116,7 @@ class OfflineInterpreter:
         try:
             return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
-            parted = text if problem.refused else with_breaks(text, language)
+            parted = with_breaks(text, language)
             meant = self._meant(parted, language, context) if parted != text else None
             if meant is not None and meant.plan is not None:
                 return meant
@@ -222,7 +222,7 @@ class OfflineInterpreter:
             with contextlib.suppress(Unclear):
                 meant = self._interpreted(rest, language, context)
                 # What a request for a program tells in full is its own reader's.
-                apart = set_off(plain, reads, language)
+                apart = set_off(plain, reads, language, names)
                 bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 bears &= not read_program_request(rest)
                 return (proposed(meant, language) or meant) if bears else meant

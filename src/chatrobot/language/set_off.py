@@ -11,31 +11,39 @@ import itertools
 from collections.abc import Sequence
 from functools import cache
 
-from chatrobot.language.acts import ORDER, Read
+from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, without
 from chatrobot.language.data_files import load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.rules import Rule, rules
-from chatrobot.language.signs import Clause, Sign
+from chatrobot.language.signs import Clause, Names, Sign
 
 _COUNTS = frozenset({"NUMBER", "FRACTION", "SCALE"})
 _UNITS = frozenset({"UNIT", "SECOND", "TIMES", "FULLTURN"})
 _SIZES = frozenset({"SHAPE", "FULLTURN"})
-_WAYS = frozenset({"DIR", "ROT"})
 _AGAIN = ("flag", "again")
 _MARKS = " ,.;:!。、—~…-"
 
 
-def set_off(plain: str, reads: Sequence[Read], language: str) -> list[Read]:
+def set_off(plain: str, reads: Sequence[Read], language: str, names: Names = ()) -> list[Read]:
     """The clauses of a normalised text that stand beside a whole order and change nothing about it."""
-    whole = [i for i, read in enumerate(reads) if _is_whole_order(read)]
-    if not whole:
+    first = next((i for i, read in enumerate(reads) if _is_whole(read.clause)), len(reads))
+    found = [
+        read
+        for i, read in enumerate(reads)
+        if not _has_amount(read.clause)
+        and _is(read.clause, plain, "ahead" if i < first else "behind", language)
+    ]
+    ordered = [read for read in reads if read not in found]
+    if not found or not any(_is_whole(read.clause) for read in ordered):
         return []
-    found = []
-    for i, read in enumerate(reads):
-        where = "ahead" if i < whole[0] else "behind"
-        if i not in whole and not _has_amount(read.clause) and _is(read.clause, plain, where, language):
-            found.append(read)
-    return found
+    return found if odds_without(plain, reads, found, names) >= ORDER else []
+
+
+def odds_without(plain: str, reads: Sequence[Read], left_out: Sequence[Read], names: Names = ()) -> float:
+    """The odds that a text orders something where some of its clauses are not said, or where they are."""
+    rest = without(plain, reads, left_out)
+    odds = order_log_odds(reads)
+    return max(odds, order_log_odds(read_acts(rest, names))) if rest else odds
 
 
 def is_doubted(plain: str, clauses: Sequence[Clause], language: str) -> bool:
@@ -47,31 +55,22 @@ def is_doubted(plain: str, clauses: Sequence[Clause], language: str) -> bool:
     return ahead or any(_is(clause, plain, "doubted_behind", language) for clause in clauses[sized[0] + 1 :])
 
 
-def _is_whole_order(read: Read) -> bool:
+def _is_whole(clause: Clause) -> bool:
     """Whether a clause says what to do and how much, or asks for the motion before once more."""
-    return read.log_odds >= ORDER and (_is_sized(read.clause) or any(map(_repeats, read.clause.signs)))
+    return (clause.moves and _has_amount(clause)) or any(map(_repeats, clause.signs))
 
 
 def _repeats(sign: Sign) -> bool:
     return sign.label == "FLAG" and _AGAIN in lexicon().words.get(tuple(sign.text.split("_")), ())
 
 
-def _is_sized(clause: Clause) -> bool:
-    labels = [sign.label for sign in clause.signs]
+def _has_amount(clause: Clause) -> bool:
+    """Whether it has a number with a unit, or a shape; `you are square with the wall` names none."""
+    before: Sequence[Sign | None] = (None, *clause.signs)
+    labels = [sign.label for last, sign in zip(before, clause.signs) if not _is_adjective(last, sign)]
     return bool(_SIZES & {*labels}) or any(
         a in _COUNTS and b in _UNITS for a, b in itertools.pairwise(labels)
     )
-
-
-def _has_amount(clause: Clause) -> bool:
-    """Whether it has a number with a unit, or a shape; `you are square with the wall` names none."""
-    named = [
-        sign for before, sign in zip((None, *clause.signs), clause.signs) if not _is_adjective(before, sign)
-    ]
-    labels = [sign.label for sign in named]
-    if _SIZES & {*labels} or _WAYS & {*labels}:
-        return True
-    return any(a in _COUNTS and b in _UNITS for a, b in itertools.pairwise(labels))
 
 
 def _is_adjective(before: Sign | None, sign: Sign) -> bool:
