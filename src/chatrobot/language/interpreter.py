@@ -51,6 +51,7 @@ from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
+from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.starting import (
     mended_alone,
@@ -115,7 +116,7 @@ class OfflineInterpreter:
         try:
             return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
-            parted = text if problem.refused else with_breaks(text, language)
+            parted = with_breaks(text, language)
             meant = self._meant(parted, language, context) if parted != text else None
             if meant is not None and meant.plan is not None:
                 return meant
@@ -226,7 +227,9 @@ class OfflineInterpreter:
             with contextlib.suppress(Unclear):
                 meant = self._interpreted(rest, language, context)
                 # What a request for a program tells in full is its own reader's.
-                bears = any_may_bear(reads, talk) and not read_program_request(rest)
+                apart = set_off(plain, reads, language, names)
+                bears = any_may_bear(reads, [read for read in talk if read not in apart])
+                bears &= not read_program_request(rest)
                 return (proposed(meant, language) or meant) if bears else meant
         try:
             meant = self._interpreted(text, language, context)

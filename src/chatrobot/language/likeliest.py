@@ -26,6 +26,7 @@ from chatrobot.language.beside import (
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.pared import mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
@@ -62,7 +63,8 @@ class _Rest:
 
     @property
     def text(self) -> str:
-        return " ".join(self.said(read) for read in self.kept).strip(" ,;:")
+        parts = (self.said(read) + _mark_behind(self.said(read), read) for read in self.kept)
+        return " ".join(parts).strip(" ,;:")
 
     def said(self, read: Read) -> str:
         return self.plain[read.clause.start : read.clause.stop].strip()
@@ -76,6 +78,11 @@ class _Rest:
         squeezed = "".join(part.split()).rstrip("…")
         held = [read for read in self.kept if squeezed and squeezed in "".join(self.said(read).split())]
         return held[-1] if held else None
+
+
+def _mark_behind(said: str, read: Read) -> str:
+    """The mark behind a clause that was parted without one: `wait 10 s so they can unload you`."""
+    return "" if said.endswith(read.clause.end) else read.clause.end
 
 
 def likeliest(
@@ -94,6 +101,10 @@ def likeliest(
     """
     reads = read_acts(plain, names)
     best = odds_beside_asides(plain, reads, names)
+    # A question that a fact answers is not passed over for a motion, nor is the motion for it.
+    asks = problem.code == "question_beside"
+    apart = [] if asks else set_off(plain, reads, language, names)
+    best = max(best, odds_without(plain, reads, apart, names))
     if any(refers(read.clause) for read in reads):  # `undo that, I forgot to film it`
         best = max(best, ORDER)
     if best < ORDER or len(reads) > MOST_CLAUSES:
@@ -101,13 +112,12 @@ def likeliest(
     if problem.code == "no_unit":
         return _with_unit(plain, problem.part, language, read, unit)
     rest = _Rest(plain, list(reads))
-    # A question that a fact answers is not passed over for a motion, nor is the motion for it.
-    odds = asides(reads) if problem.code != "question_beside" else {}
+    odds = {} if asks else asides(reads)
     told = [read for read in reads if is_sure_aside(read.clause, odds) and _is_no_part(read, reads, odds)]
-    for clause in [clause for clause in reads if clause in told or _is_sure_talk(clause, best)]:
+    for clause in [clause for clause in reads if clause in (*apart, *told) or _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
-    is_sure = bool(told) or not problem.refused
-    is_sure &= not any_may_bear(reads, [read for read in reads if read not in rest.kept])
+    is_sure = bool(apart or told) or not problem.refused
+    is_sure &= not any_may_bear(reads, [read for read in reads if read not in (*rest.kept, *apart)])
     for _ in range(MOST_PARTS + 1):
         try:
             found = read(rest.text)

@@ -15,6 +15,7 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _SAME = ("length", "angle", "time")
+_BEHIND_AMOUNT = frozenset({"dir", "rot", "glue", "filler"})
 _TOLERANCE = 0.03
 """三尺 is a metre to three parts in a hundred, whatever a foot is held to be."""
 
@@ -34,13 +35,14 @@ def without_restated(atoms: Sequence[Atom]) -> list[Atom]:
     out: list[Atom] = []
     i = 0
     while i < len(atoms):
-        again = _again(out, atoms, i)
-        if again is None:
+        told = _last_amount(out)
+        again = _again(out, told, atoms, i) if told is not None else None
+        if told is None or again is None:
             out.append(atoms[i])
             i += 1
             continue
-        if not math.isclose(out[-1].number, atoms[again].number, rel_tol=_TOLERANCE):
-            raise Unclear("contradiction", f"{out[-1].text} {atoms[again].text}")
+        if not math.isclose(told.number, atoms[again].number, rel_tol=_TOLERANCE):
+            raise Unclear("contradiction", f"{told.text} {atoms[again].text}")
         i = again + 1
         if _only_explains(out):
             del out[-2:]
@@ -70,16 +72,25 @@ def _only_explains(out: Sequence[Atom]) -> bool:
     return any((a.kind, a.text, a.number) == ("q", told.text, told.number) for a in before)
 
 
-def _again(out: Sequence[Atom], atoms: Sequence[Atom], i: int) -> int | None:
+def _last_amount(out: Sequence[Atom]) -> Atom | None:
+    """The last amount, where nothing but its way may stand behind it."""
+    at = next((at for at in range(len(out) - 1, -1, -1) if out[at].kind not in _BEHIND_AMOUNT), -1)
+    return out[at] if at >= 0 and out[at].kind == "q" and _dimension(out[at]) in _SAME else None
+
+
+def _again(out: Sequence[Atom], last: Atom, atoms: Sequence[Atom], i: int) -> int | None:
     """Where, from `i` on, the last amount of `out` is told once more."""
-    if not out or out[-1].kind != "q" or _dimension(out[-1]) not in _SAME:
-        return None
     end, said = i, False
-    while end < len(atoms) and (atoms[end].kind in ("glue", "filler") or _is_light(atoms[end])):
+    while end < len(atoms) and (atoms[end].kind in ("glue", "filler") or _is_apart(atoms[end])):
         said = said or atoms[end].text in _words()
         end += 1
-    told = end < len(atoms) and atoms[end].kind == "q" and _dimension(atoms[end]) == _dimension(out[-1])
-    return end if told and (said or _is_another_unit(out[-1], atoms, i, end)) else None
+    if end == len(atoms) or atoms[end].kind != "q" or _dimension(atoms[end]) != _dimension(last):
+        return None
+    if said:
+        return end
+    apart = any(atom.value == "strong" for atom in atoms[i:end] if atom.kind == "sep")
+    is_next = out[-1] is last and not apart
+    return end if is_next and _is_another_unit(last, atoms, i, end) else None
 
 
 def _is_another_unit(before: Atom, atoms: Sequence[Atom], i: int, end: int) -> bool:
@@ -89,6 +100,10 @@ def _is_another_unit(before: Atom, atoms: Sequence[Atom], i: int, end: int) -> b
     return (
         alone and alike and end > i and all(_is_light(atom) or atom.kind == "filler" for atom in atoms[i:end])
     )
+
+
+def _is_apart(atom: Atom) -> bool:
+    return atom.kind == "sep" and atom.value in ("weak", "strong", "paren")
 
 
 def _is_light(atom: Atom) -> bool:

@@ -16,6 +16,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import Rule, rules
+from chatrobot.language.set_off import is_doubted
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
 from chatrobot.plan.steps import Drive, Plan, RawTwist, Step
@@ -75,7 +76,7 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     clauses = clauses_of(text, names)
     if len(clauses) < 2:
         return False  # there is nothing beside it
-    if holds_back(clauses):
+    if holds_back(clauses) or is_doubted(text, clauses, meant.language):
         return True
     if meant.corrects or context.dialogue.pending or _has_twists(meant.plan.steps):
         return False
