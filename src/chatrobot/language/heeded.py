@@ -161,6 +161,9 @@ def _must_matter(atoms: Sequence[Atom], i: int) -> bool:
         return _repeats_what_is_told(atoms, i)
     if flag == "diagonal":  # `diagonally to the front left`
         return not any(atom.kind in ("dir", "shape") and "_" in atom.value for atom in others)
+    ways = {atom.value for atom in others if atom.kind == "dir"}
+    if flag == "trip" and (ways >= {"forward", "back"} or ways >= {"left", "right"}):
+        return False  # `to and fro: a metre ahead, a metre back`
     if flag in _WAYS_OF_DOING:
         return not any(atom.value == flag for atom in others)
     drawn = any(atom.kind in ("shape", "role", "counter") or atom.value == "curve" for atom in others)

@@ -115,11 +115,11 @@ def round_trips(script: Script, frame: Frame) -> None:
 
 
 def is_way_back(trip: Frame, back: Frame) -> bool:
-    """每趟前进一米再后退一米: the way back of each trip, told as well."""
+    """每趟前进一米再后退一米, `to and fro: a metre ahead, a metre back`: the way back of each trip, told as well."""
     lengths = [frame.q["length"].number for frame in (trip, back) if "length" in frame.q]
     as_far = len(lengths) == 2 and abs(lengths[0] - lengths[1]) < 1e-6
     ways = {trip.direction, back.direction}
-    return "each" in trip.flags and as_far and ways in ({"forward", "back"}, {"left", "right"})
+    return as_far and ways in ({"forward", "back"}, {"left", "right"})
 
 
 def _is_there_and_back(steps: list[Step]) -> bool:
