@@ -227,9 +227,10 @@ class OfflineInterpreter:
             with contextlib.suppress(Unclear):
                 meant = self._interpreted(rest, language, context)
                 # What a request for a program tells in full is its own reader's.
-                apart = set_off(plain, reads, language, names)
-                bears = any_may_bear(reads, [read for read in talk if read not in apart])
-                bears &= not read_program_request(rest)
+                bears = any_may_bear(reads, talk) and not read_program_request(rest)
+                if bears:
+                    apart = set_off(plain, reads, language, names)
+                    bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 return (proposed(meant, language) or meant) if bears else meant
         try:
             meant = self._interpreted(text, language, context)

@@ -20,6 +20,7 @@ from chatrobot.language.signs import Clause, Names, Sign
 _COUNTS = frozenset({"NUMBER", "FRACTION", "SCALE"})
 _UNITS = frozenset({"UNIT", "SECOND", "TIMES", "FULLTURN"})
 _SIZES = frozenset({"SHAPE", "FULLTURN"})
+_DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE"})
 _AGAIN = ("flag", "again")
 _MARKS = " ,.;:!。、—~…-"
 
@@ -48,11 +49,18 @@ def odds_without(plain: str, reads: Sequence[Read], left_out: Sequence[Read], na
 
 def is_doubted(plain: str, clauses: Sequence[Clause], language: str) -> bool:
     """Whether a clause beside an amount says that it is only told of, meant for others, or no order at all."""
-    sized = [i for i, clause in enumerate(clauses) if clause.measures]
-    if not sized:
+    first = next((i for i, clause in enumerate(clauses) if clause.measures), None)
+    if first is None:
         return False
-    ahead = any(_is(clause, plain, "doubted_ahead", language) for clause in clauses[: sized[0]])
-    return ahead or any(_is(clause, plain, "doubted_behind", language) for clause in clauses[sized[0] + 1 :])
+    headings = (clause for clause in clauses[:first] if clause.end == ":")
+    others = (clause for clause in clauses[first + 1 :] if not _is_order_of_its_own(clause))
+    return any(_is(clause, plain, "doubted_ahead", language) for clause in headings) or any(
+        _is(clause, plain, "doubted_behind", language) for clause in others
+    )
+
+
+def _is_order_of_its_own(clause: Clause) -> bool:
+    return _has_amount(clause) and any(sign.label in _DOES for sign in clause.signs)
 
 
 def _is_whole(clause: Clause) -> bool:

@@ -19,10 +19,8 @@ from chatrobot.language.rules import Rule, rules
 from chatrobot.language.set_off import is_doubted
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
-from chatrobot.plan.steps import Drive, Plan, RawTwist, Step
+from chatrobot.plan.steps import Plan, RawTwist, Step
 
-FAR_M = 60.0
-"""So far in one piece people tell each other the way; a robot is asked to drive it only once in a while."""
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
@@ -70,8 +68,6 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     """
     if meant.plan is None:
         return False
-    if any(isinstance(step, Drive) and (step.distance_m or 0.0) > FAR_M for step in meant.plan.steps):
-        return True
     names = names_in(context)
     clauses = clauses_of(text, names)
     if len(clauses) < 2:
