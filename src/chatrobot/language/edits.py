@@ -10,7 +10,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from chatrobot.language.context import Dialogue
+from chatrobot.language.context import Dialogue, TurnRecord
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import flipped, inverse, is_sideways
@@ -36,6 +36,16 @@ _OF_ONE = frozenset({"length", "angle", "turns", "time"})
 """Amounts that are for one step, where nothing tells that they are of each."""
 
 
+def _to_edit(edit: Edit, dialogue: Dialogue) -> TurnRecord | None:
+    """The motion that a text may change; None where several were undone at once: `forward 20 cm` means none of them."""
+    if "overshot" in edit.flags:
+        return dialogue.last_motion
+    try:
+        return motion_meant(dialogue)
+    except Unclear:
+        return None
+
+
 def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     """The steps of the last motion as they are to be now; None where `atoms` change none, or not for sure.
 
@@ -45,7 +55,7 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
     edit = read_edit(atoms)
     if edit is None:
         return None
-    last = dialogue.last_motion if "overshot" in edit.flags else motion_meant(dialogue)
+    last = _to_edit(edit, dialogue)
     if last is None or last.plan is None or is_correction(last):
         return None
     steps = list(last.plan.steps)
