@@ -10,7 +10,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from chatrobot.language.context import Dialogue, TurnRecord
+from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.inverse import flipped, inverse, is_sideways
@@ -20,6 +20,7 @@ from chatrobot.language.last_motion import (
     unit_driven_m,
     within_unit_before,
 )
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.shape_sides import rest_of_shape
