@@ -137,7 +137,7 @@ def test_after_the_stop_of_one_motion_comes_another() -> None:
     [
         "Grandpa, you go back a bit", "爷爷，你慢慢往前走，不着急", "退后退后，大家都退后，地滑",
         "Alexa, forward thirty seconds",
-        "Sit, Bella. Good girl. Now turn around.", "Rusty, go back", "大黄，过来", "go straight on for 200 metres",
+        "Sit, Bella. Good girl. Now turn around.", "Rusty, go back", "大黄，过来",
         "ten centimetres, I measured it twice", "三米，我量过的", "我先往右挪半米，给你让路",
         "ahead it's two metres, behind three",
         "To go forward one metre you need about three seconds", "左后方三十厘米处有根线", "别看它小，能一口气退十米呢",

@@ -41,7 +41,7 @@ from chatrobot.language.last_motion import unit_after
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.likeliest import likeliest, offer, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
-from chatrobot.language.names import misspelt_place, names_in
+from chatrobot.language.names import misspelt_place, names_in, naming_points, with_points
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import say
@@ -84,10 +84,7 @@ _OF_AN_ORDER = frozenset(
 
 
 class OfflineInterpreter:
-    """Understands English, Chinese and German by rules over data. Keeps no state.
-
-    The dialogue comes with the context.
-    """
+    """Understands English, Chinese and German by rules over data. Keeps no state: the dialogue is in the context."""
 
     def __init__(self, profile: RobotProfile) -> None:
         self._profile = profile
@@ -98,7 +95,9 @@ class OfflineInterpreter:
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
-        return read_glossed(text, language, context, self._read)
+        said, context = with_points(text, context)
+        meant = read_glossed(said, language, context, self._read)
+        return replace(meant, reply=naming_points(meant.reply, context)) if said != text else meant
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         said = with_told_apart(normalise(text), language)
@@ -332,13 +331,11 @@ def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretati
     if problem.code != "unknown_part" or not orders(normalise(text), names_in(reading.context)):
         return None
     meant = misspelt_place(rephrased(normalise(text), language), problem.part, reading.context)
-    if meant is None:
-        return None
     try:
-        plan = read_command(meant.text, reading).plan
+        plan = read_command(meant.text, reading).plan if meant is not None else None
     except Unclear:
         return None
-    if plan is None:
+    if meant is None or plan is None:
         return None
     ask = say(language, "did_you_mean_place", place=meant.place)
     return Interpretation(

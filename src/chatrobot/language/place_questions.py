@@ -12,6 +12,7 @@ from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.names import word_of
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import by_language, say
 from chatrobot.language.questions import places_known, topic_of, unknown_pose
@@ -133,7 +134,7 @@ def _last_spoken_of(language: str, context: Context) -> str:
 
 
 def _plain(name: str) -> str:
-    return normalise(name).casefold().strip()
+    return normalise(word_of(name)).casefold().strip()
 
 
 def _may_be_a_place(named: str, language: str) -> bool:
