@@ -96,23 +96,31 @@ def test_stop_does_not_even_load_the_parser_of_arguments() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "limit_s"),
-    [(["stop"], 0.06), (["--help"], 0.3), (["do", "forward 1 m", "--fast", "--world", "empty"], 1.0)],
+    ("arguments", "most"),
+    [(["stop"], 0.4), (["--help"], 1.0), (["do", "forward 1 m", "--fast", "--world", "empty"], 6.0)],
 )
-def test_start_up_is_quick(arguments: list[str], limit_s: float, tmp_path: Path) -> None:
-    """In processor time, the best of up to 15, so that a busy machine does not matter; compiled once, as installed."""
+def test_start_up_is_quick(arguments: list[str], most: float, tmp_path: Path) -> None:
+    """So many times what Python needs for numpy and asyncio, in processor time; both the best of up to 15, in turn.
+
+    Compiled once, as installed. A machine that is slow, or busy, slows both.
+    """
     environment = {**os.environ, "XDG_RUNTIME_DIR": str(tmp_path), "PYTHONPYCACHEPREFIX": str(tmp_path)}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
-    command = [sys.executable, "-m", "chatrobot", *arguments]
-    costs_s = [math.inf]
-    while min(costs_s) >= limit_s and len(costs_s) <= 15:
+
+    def cost_s(*command: str) -> float:
         before = os.times()
+        command = (sys.executable, *command)
         subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL, timeout=60)
         after = os.times()
-        costs_s.append(
-            after.children_user + after.children_system - before.children_user - before.children_system
-        )
-    assert min(costs_s) < limit_s
+        return after.children_user + after.children_system - before.children_user - before.children_system
+
+    measure_s, ours_s = math.inf, math.inf
+    for _ in range(15):
+        measure_s = min(measure_s, cost_s("-c", "import asyncio, numpy"))
+        ours_s = min(ours_s, cost_s("-m", "chatrobot", *arguments))
+        if ours_s < most * measure_s:
+            return
+    raise AssertionError(f"{ours_s:.2f} s, {ours_s / measure_s:.1f} times {measure_s:.2f} s")
 
 
 def test_importing_chatrobot_loads_nothing_yet_offers_its_names() -> None:

@@ -14,7 +14,7 @@ _QUOTING = frozenset({"unknown_part", "unclear_motion", "did_you_mean", "how_lon
 """Codes whose replies quote what was not understood."""
 _OPENING, _CLOSING = '“„"', '”“"'
 _MARKS = " ,.;:!?，。；：！？…\n"
-_BLANK = re.compile(r"(?<=[\u2e80-\uffef]) (?=[\u2e80-\uffef])")
+_BLANK = r"(?<=[\u2e80-\uffef]) (?=[\u2e80-\uffef])"
 """A blank between two Chinese characters."""
 _SHOWN = 60
 _SCATTERED = 2
@@ -40,7 +40,7 @@ def _part_of(text: str, part: str, *, is_reordered: bool) -> str:
     if part.endswith("…") and not whole.endswith(_squeezed(said)):
         return _beginning(text)  # it breaks off in other words only
     if said and _squeezed(said) in whole:
-        return part if is_reordered else _BLANK.sub("", part)
+        return part if is_reordered else re.sub(_BLANK, "", part)
     units = list(UNIT.finditer(text.casefold()))
     wanted = {unit for unit in UNIT.findall(said.casefold()) if unit[0].isalpha()}
     held = {unit.group() for unit in units} & wanted

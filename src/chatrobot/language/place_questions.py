@@ -16,6 +16,7 @@ from chatrobot.language.names import word_of
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import by_language, say
 from chatrobot.language.questions import places_known, topic_of, unknown_pose
+from chatrobot.language.rules import Rule, rules
 from chatrobot.language.seen import SECTORS, what_is_seen
 from chatrobot.language.typos import edit_distance
 
@@ -33,23 +34,25 @@ class _Place(NamedTuple):
 
 
 @cache
-def _patterns(language: str) -> tuple[tuple[str, re.Pattern[str]], ...]:
+def _rules(language: str) -> tuple[Rule, ...]:
     table = load_table(language, "places_asked")
     name = rf"(?:{table['article']})*(?P<place>.+?)"
-    return tuple(
-        (kind, re.compile(f"(?:{table['before']})*(?:{said.replace('PLACE', name)})(?:{table['after']})*"))
+    whole = "(?:{before})*(?:{said})(?:{after})*"
+    asked = (
+        (whole.format(before=table["before"], said=said.replace("PLACE", name), after=table["after"]), kind)
         for kind, said in table["asked"]
     )
+    return rules(f"places_asked_{language}", asked, {})
 
 
 def answer_about_places(plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
     """The answer to a normalised text that asks about places and nothing else; None for any other text."""
     said = plain.strip(" ?!.。,~")
-    for kind, pattern in _patterns(language):
-        found = pattern.fullmatch(said)
+    for rule in _rules(language):
+        found = rule.pattern.fullmatch(said) if rule.is_in(said) else None
         if found is None:
             continue
-        named = found.groupdict()
+        kind, named = rule.said, found.groupdict()
         side = named.get("side") or named.get("side2") or ""
         if kind == "sight":
             return Interpretation(

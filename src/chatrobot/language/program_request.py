@@ -18,7 +18,18 @@ from chatrobot.language.normalise import normalise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist, Repeat, Step
 
-Patterns = dict[str, re.Pattern[str]]
+
+class Patterns(dict[str, re.Pattern[str]]):
+    """Patterns by name, each compiled at the first look."""
+
+    def __init__(self, sources: dict[str, str]) -> None:
+        super().__init__()
+        self.sources = sources
+
+    def __missing__(self, name: str) -> re.Pattern[str]:
+        self[name] = re.compile(self.sources[name], re.S | re.I)
+        return self[name]
+
 
 DEFAULT_REST_S = 1.0
 LONGEST_REST_S = 60.0
@@ -59,12 +70,9 @@ class _Tables:
 
 @lru_cache(maxsize=1)
 def _tables() -> tuple[_Tables, ...]:
-    def compiled(table: dict[str, str]) -> Patterns:
-        return {name: re.compile(pattern, re.S | re.I) for name, pattern in table.items()}
-
     loaded = [load_table(language, "programs") for language in REPLY_LANGUAGES]
     return tuple(
-        _Tables(compiled(t["patterns"]), compiled(t["wording"]), compiled(t["names"]), dict(t["plain"]))
+        _Tables(Patterns(t["patterns"]), Patterns(t["wording"]), Patterns(t["names"]), dict(t["plain"]))
         for t in loaded
     )
 
@@ -178,8 +186,8 @@ def _name(text: str, plain: str, body: str, tables: _Tables) -> str:
     named = tables.wording["named"].search(text)
     if named:
         return named[1].strip()
-    for name, pattern in tables.names.items():
-        if pattern.search(plain):
+    for name in tables.names.sources:
+        if tables.names[name].search(plain):
             return name
     first = re.split(r"\d|\b(?:and|then|until|for|at)\b|[,.;:!?]", body, maxsplit=1)[0]
     words = re.findall(r"[^\W\d_]+", first)[:_NAME_WORDS]
