@@ -255,13 +255,11 @@ def test_two_pupils_links_in_one_browser_stay_each_with_their_own_robot(
 def test_a_revoked_link_ends_its_page_and_its_motion_and_another_is_given(
     pupils: RunningClass, browser: Browser
 ) -> None:
-    drive(pupils, 1)
+    drive(
+        pupils, 0, 1
+    )  # not from the browser: a busy machine holds its beats up, and the robot stops for that
     old = pupils.pupils_tokens()[0]
     pupil = open_page(browser, f"{pupils.origin}/#{old}")
-    pupil.get_by_label("Say something to the robot").fill("forward 50 m at 0.3 m/s")
-    asked_s = time.monotonic()
-    pupil.keyboard.press("Enter")
-    pupils.heard[0].wait_for_motion(asked_s)
     teacher = browser.new_page(locale="en-GB")
     teacher.goto(f"{pupils.origin}/teacher#{pupils.token}")
     teacher.get_by_role("button", name="New link: Pupil 1").click()
