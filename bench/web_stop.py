@@ -188,20 +188,45 @@ def in_the_browser(robot: RunningRobot, address: str) -> Iterator[bool]:
         browser.close()
 
 
+_PUPILS = """
+import asyncio, json, sys, websockets
+port, text, *tokens = sys.argv[1:]
+async def beat(socket):
+    while True:
+        await socket.send('{"do":"beat","held":false}')
+        await asyncio.sleep(0.05)
+async def pupil(token):
+    at, headers = f"127.0.0.1:{port}", {"Authorization": f"Bearer {token}"}
+    how = {"origin": f"http://{at}", "additional_headers": headers, "proxy": None, "max_size": None}
+    async with websockets.connect(f"ws://{at}/ws", **how) as socket:
+        await socket.send('{"do":"take"}')
+        beating = asyncio.ensure_future(beat(socket))
+        await socket.send(json.dumps({"do": "say", "text": text}))
+        async for _ in socket:
+            pass
+async def main():
+    await asyncio.gather(*map(pupil, tokens))
+asyncio.run(main())
+"""
+"""The pages of the other pupils, in a process of their own."""
+
+
 def in_a_class(folder: Path) -> bool:
     """Print the row of a pupil who stops a robot while those of all others move; return whether it holds."""
     running = RunningClass(folder, PUPILS)
+    mine, *others = running.pupils_tokens()
+    command = [sys.executable, "-c", _PUPILS, str(running.port), "turn left 3600 degrees", *others]
+    pages = subprocess.Popen(command)
     try:
-        pages = [running.pupil(place) for place in range(PUPILS)]
-        for page in pages:  # a page that does not read what it is told is hung up on
-            threading.Thread(target=deque, args=(page.socket, 0), daemon=True).start()
-        for page in pages[1:]:
-            page.say("say", text="turn left 3600 degrees")
-        line_of_stop = running.dial("/stop", running.pupils_tokens()[0], pages[0].heard[0]["stop_port"])
+        page = running.pupil(0)
+        threading.Thread(target=deque, args=(page.socket, 0), daemon=True).start()
+        line_of_stop = running.dial("/stop", mine, page.heard[0]["stop_port"])
+        for ear in running.heard[1:]:
+            ear.wait_for_motion()
         took = []
         for number in range(REPETITIONS):
             said_s = time.monotonic()
-            pages[0].say("say", text=f"turn {'left' if number % 2 else 'right'} 90 degrees")
+            page.say("say", text=f"turn {'left' if number % 2 else 'right'} 90 degrees")
             running.heard[0].wait_for_motion(said_s)
             time.sleep(0.3)
             stopped_s = time.monotonic()
@@ -211,6 +236,8 @@ def in_a_class(folder: Path) -> bool:
         moving = sum(any(ear.all[-1][1]) for ear in running.heard[1:])
         return line("the others of a class move", took, PROMISED_S, f"{moving} of them at the end")
     finally:
+        pages.kill()
+        pages.wait()
         running.close()
 
 
