@@ -6,6 +6,7 @@ beside busy processes in test_busy_machine.py; `make faults` strikes twenty time
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Iterator
 
@@ -25,6 +26,14 @@ REPLACEMENT = {"control": ("--accept-others",)}
 def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeRig]:
     with running(tmp_path_factory.mktemp("nodes")) as made:
         yield made
+
+
+def test_a_robot_that_moves_hears_from_us_20_times_a_second_at_least(rig: NodeRig) -> None:
+    said_s = rig.drive()
+    time.sleep(1.0)
+    moving_s = [at_s for at_s, twist in rig.velocities.since(said_s) if twist.vx_mps > 0.0]
+    assert max(later - sooner for sooner, later in itertools.pairwise(moving_s)) < 0.05
+    rig.rest()
 
 
 def test_a_second_control_is_named_and_nothing_moves_until_it_is_gone(rig: NodeRig) -> None:

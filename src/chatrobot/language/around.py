@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cache
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import relation_words
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Go
@@ -17,11 +16,6 @@ AROUND = "around_place"
 """The flag of a place that is to be driven around."""
 _LAPS = ("lap", "loop")
 _BESIDE = frozenset({"glue", "num", "filler"})
-
-
-@cache
-def _words(name: str) -> frozenset[str]:
-    return frozenset(word for code in LANGUAGES for word in load_table(code, "relations").get(name, ()))
 
 
 def around_places(atoms: Sequence[Atom]) -> list[Atom]:
@@ -35,7 +29,7 @@ def around_places(atoms: Sequence[Atom]) -> list[Atom]:
     while i < len(out):
         at = _relation_at(out, i) if out[i].kind == "place" else -1
         if at >= 0:
-            if out[at].text.split()[-1] in _words("passing"):
+            if out[at].text.split()[-1] in relation_words("passing"):
                 raise Unclear("unclear_motion", f"{out[at].text} {out[i].text}")
             i = _encircle(out, at, i)
         i += 1
@@ -45,7 +39,9 @@ def around_places(atoms: Sequence[Atom]) -> list[Atom]:
 def _relation_at(atoms: Sequence[Atom], place: int) -> int:
     """Where the word stands that says how the motion lies to that place; -1 where none does."""
     for at in range(place - 1, -1, -1):
-        if atoms[at].text.split()[-1:] and atoms[at].text.split()[-1] in _words("around") | _words("passing"):
+        if atoms[at].text.split()[-1:] and atoms[at].text.split()[-1] in relation_words(
+            "around"
+        ) | relation_words("passing"):
             return at
         if atoms[at].kind not in _BESIDE:
             return -1

@@ -44,6 +44,13 @@ def load_table(language: str, name: str) -> dict[str, Any]:
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
+@cache
+def relation_words(name: str) -> frozenset[str]:
+    """The words of one list of `relations.toml` in all languages: how a motion lies to something else."""
+    tables = (load_table(code, "relations") for code in REPLY_LANGUAGES)
+    return frozenset(word for table in tables for word in table.get(name, ()))
+
+
 def expand(pattern: str) -> list[str]:
     """`turn{,s} left` → `turn left`, `turns left`."""
     parts = _BRACES.split(pattern)

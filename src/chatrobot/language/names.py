@@ -46,13 +46,13 @@ def with_points(text: str, context: Context) -> tuple[str, Context]:
 def naming_points(said: str, context: Context) -> str:
     """What is told, with the points as they are written."""
     for name in context.dialogue.places:
-        said = said.replace(word_of(name), name) if name.startswith("(") else said
+        said = said.replace(word_of(name), name) if _POINT.fullmatch(name) else said
     return said
 
 
 def word_of(name: str) -> str:
     """The name of a place as it is looked up in a text: that of a point is one word of letters."""
-    return "xy" + name.translate(_LETTERS) if name.startswith("(") else name
+    return "xy" + name.translate(_LETTERS) if _POINT.fullmatch(name) else name
 
 
 class Misspelt(NamedTuple):

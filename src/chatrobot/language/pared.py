@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
+from chatrobot.language.data_files import relation_words
 from chatrobot.language.gloss import MARK
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.lexicon import cut, lexicon
@@ -128,7 +128,7 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
     said = text[at : at + len(part)]
     if _is_needed(signs, held[0], held[-1] + 1):
         return
-    if any(word in said for word in _words("words") if not word.isascii()):
+    if any(word in said for word in relation_words("words") if not word.isascii()):
         return
     first, last = held[0], held[-1]
     before, after = first, last + 1
@@ -139,7 +139,7 @@ def _shorter(text: str, names: Names, part: str) -> Iterator[_Shorter]:
     if _is_counted(signs, first) or _is_number(signs, after) or not (before or _says_how_much(signs)):
         return
     points = bool(before) and signs[before - 1].label in _POINTING
-    points &= all(sign.text in _words("naming") for sign in signs[before:first])
+    points &= all(sign.text in relation_words("naming") for sign in signs[before:first])
     if all(_is_strange(signs[i], names) for i in held):
         yield _without(text, clause, first, last, points=points)
     is_whole = before == 0 and after == len(signs)
@@ -152,7 +152,7 @@ def _opened(signs: Sequence[Sign], at: int) -> int | None:
 
     None where there is none, or all of it may be left out word by word.
     """
-    opened = next((i for i, sign in enumerate(signs[:at]) if sign.text in _words("opening")), None)
+    opened = next((i for i, sign in enumerate(signs[:at]) if sign.text in relation_words("opening")), None)
     return opened if opened is not None and any(sign.moves for sign in signs[opened : at + 2]) else None
 
 
@@ -190,20 +190,20 @@ def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
 
     Or it says where the motion is done: `around the fern`.
     """
-    if any(sign.text in _words("moved") for sign in signs[:at]):
+    if any(sign.text in relation_words("moved") for sign in signs[:at]):
         return True
     begin = at
     while begin and _is_light(signs[begin - 1]):
         begin -= 1
-    governed = begin and not signs[begin - 1].moves and signs[begin - 1].text in _words("words")
-    if governed and signs[begin - 1].text not in _words("towards"):
+    governed = begin and not signs[begin - 1].moves and signs[begin - 1].text in relation_words("words")
+    if governed and signs[begin - 1].text not in relation_words("towards"):
         return True
-    if not any(sign.text in _words("articles") for sign in signs[begin:at]):
+    if not any(sign.text in relation_words("articles") for sign in signs[begin:at]):
         return False
     if begin and signs[begin - 1].label == "VERB":  # what is drawn is no thing
         return lexicon().words.get(tuple(signs[begin - 1].text.split("_"))) != _MAKE
     first = next((i for i, sign in enumerate(signs) if sign.label != "opening"), 0)
-    return not begin and signs[first].text in _words("articles")
+    return not begin and signs[first].text in relation_words("articles")
 
 
 def _is_counted(signs: Sequence[Sign], at: int) -> bool:
@@ -251,7 +251,7 @@ def _is_light(sign: Sign) -> bool:
     if sign.moves or sign.is_name or sign.label in _KEPT:
         return False
     return all(
-        (unit[:1].isalpha() or unit == "-") and unit not in _words("words") and not _names_way(unit)
+        (unit[:1].isalpha() or unit == "-") and unit not in relation_words("words") and not _names_way(unit)
         for unit in (sign.text.replace("_", "") if not sign.text.isascii() else "", *sign.text.split("_"))
         if unit
     )
@@ -268,8 +268,7 @@ def _names_way(unit: str) -> bool:
 def _ways() -> tuple[str, ...]:
     known = (key[0] for key, meaning in lexicon().words.items() if len(key) == 1 and meaning[0][0] in _WAYS)
     latin = {word for word in known if word.isascii() and len(word) >= _LEAST_OF_WAY}
-    listed = (load_table(code, "relations").get("ways", ()) for code in REPLY_LANGUAGES)
-    return tuple(latin.union(*listed))
+    return tuple(latin | relation_words("ways"))
 
 
 def _is_strange(sign: Sign, names: Names) -> bool:
@@ -285,10 +284,3 @@ def _bears(text: str, names: Names) -> bool:
 def _is_complete(text: str, names: Names) -> bool:
     """Whether what is left says how much, or how often."""
     return any(sign.label in _EXTENTS for clause in clauses_of(text, names) for sign in clause.signs)
-
-
-@lru_cache(maxsize=4)
-def _words(name: str) -> frozenset[str]:
-    """Words that say how a motion lies to something else, or in what phrases something else is named."""
-    tables = (load_table(code, "relations") for code in REPLY_LANGUAGES)
-    return frozenset(word for table in tables for word in table.get(name, ()))

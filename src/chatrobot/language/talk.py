@@ -62,10 +62,7 @@ def _rules(language: str, name: str) -> tuple[Rule, ...]:
 
 
 def may_be_talk(meant: Interpretation, text: str, language: str, context: Context) -> bool:
-    """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody.
-
-    So is a way that is told somebody in the street: `straight on for 200 m`.
-    """
+    """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody."""
     if meant.plan is None:
         return False
     names = names_in(context)
