@@ -33,3 +33,9 @@ def test_a_text_that_is_put_into_known_words_is_shown_in_them() -> None:
     told = why("Fahr einen Meter und ein Viertel vor")
     assert "In den Wörtern, die ich lese: drive a metre and a quarter of a metre forward" in told
     assert "Deshalb wird es getan: 1.25 m vorwärts fahren" in told
+
+
+def test_a_point_is_one_word_and_shown_as_it_was_written() -> None:
+    told = why("go to (1, 1), then turn left")
+    assert "(1, 1) = place (1, 1)" in told
+    assert "without “then turn left”: go to (1, 1)" in told

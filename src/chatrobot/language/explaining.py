@@ -14,7 +14,7 @@ from chatrobot.language.glossed import in_known_words
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.names import names_in
+from chatrobot.language.names import names_in, naming_points, with_points
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.quantities import read_quantities
@@ -39,7 +39,8 @@ class _Next(NamedTuple):
 def explain(text: str, context: Context, interpreter: OfflineInterpreter) -> list[str]:
     """Lines, in the language of `text`, on how it is read in this context and what follows from that."""
     meant = interpreter.interpret(text, context)
-    language, known = in_known_words(text, context)
+    said, context = with_points(text, context)
+    language, known = in_known_words(said, context)
     plain = normalise(known)
     reads = read_acts(plain, names_in(context))
 
@@ -47,7 +48,7 @@ def explain(text: str, context: Context, interpreter: OfflineInterpreter) -> lis
         return say(meant.language, code, **values)
 
     lines = [told("why_text", text=text[:_SHOWN])]
-    if known != text:
+    if known != said:
         lines.append(told("why_known", text=known[:_SHOWN]))
     for read in reads:
         odds = f"{read.log_odds:+.1f}"
@@ -59,7 +60,8 @@ def explain(text: str, context: Context, interpreter: OfflineInterpreter) -> lis
     words = _words(rephrased(plain, language), context)
     lines += [told("why_words", words=words)] if words else []
     lines.append(_decided(meant))
-    return [*lines, _second(plain, reads, meant, context, interpreter)]
+    lines.append(_second(plain, reads, meant, context, interpreter))
+    return [naming_points(line, context) for line in lines]
 
 
 def _act(read: Read) -> str:
