@@ -1,8 +1,10 @@
 """Fit the weights of the reader of asides: `python -m scripts.fit_beside [--check]`. Deterministic.
 
-Examples are the frames in tests/corpus/frames/beside_*.toml, put beside the motions of the frames for acts, and the
-clauses of real orders: one that can be left out of a text without changing its plan is an aside, any other is none.
-With --check, nothing is written: a fifth of the frames is left out in turn and read by what the others taught.
+Examples are what people wrote, in tests/corpus/asides: clauses to be said beside an order (`<language>_<writer>.tsv`:
+kind, place, clause), and clauses of whole texts (`texts.tsv`: kind, text, clause as it is read), by the plan that the
+text must give. Besides them the frames in tests/corpus/frames/beside_*.toml, put beside the motions of the frames for
+acts. The words that many of the writers use are written down with the weights.
+With --check, nothing is written: each file is left out in turn and read by what the others taught.
 """
 
 from __future__ import annotations
@@ -10,46 +12,67 @@ from __future__ import annotations
 import random
 import re
 import sys
-from collections.abc import Iterator
+import zlib
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from unittest import mock
+from pathlib import Path
 
 import numpy as np
 from scripts.fit_acts import CORPUS
-from tests.language.dialogue_runner import Conversation
-from tests.language.test_sayings import sayings
 
-from chatrobot.cli.eval.corpus import load_corpus
-from chatrobot.language import beside
-from chatrobot.language.acts import read_acts
-from chatrobot.language.beside import SCALE, SLOTS, features, slot_of
+from chatrobot.core.geometry import ORIGIN
+from chatrobot.language import aside_features
+from chatrobot.language.aside_features import COMMON_WORDS, SLOTS, features, slot_of
+from chatrobot.language.beside import SCALE
+from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.data_files import DATA, LANGUAGES
-from chatrobot.language.normalise import has_chinese, normalise
-from chatrobot.language.signs import clauses_of
+from chatrobot.language.glossed import in_known_words
+from chatrobot.language.normalise import normalise
+from chatrobot.language.set_off import has_amount
+from chatrobot.language.signs import Clause, clauses_of
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
 
-EACH = 10
-"""So often each frame is filled."""
-PENALTY, ROUNDS, STEP = 0.06, 200, 0.5
-FOLDS = 5
+ASIDES = CORPUS / "asides"
+EACH, OF_FRAMES = 10, 0.4
+"""So often each frame is filled; what all of its fillings weigh together."""
+PENALTY, ROUNDS, STEP = 0.2, 200, 0.5
+LEAST_WRITERS, WRITERS_A_FILE = 12, 40
+"""A common word is used by so many, where a file counts as that many writers."""
 _SLOTS = {"t": "things", "p": "people", "a": "states", "w": "doing", "o": "other_orders", "n": "amounts",
           "b": "bodies", "l": "places",
           "q": "people_do", "y": "thing_does", "i": "i_do", "u": "you_do", "r": "present"}  # fmt: skip
 _QUOTE = "{x}: {v}"
+_ORDERS = {
+    "en": ("Go forward one metre", "Turn left 90 degrees", "Back half a metre", "Slide right 30 cm",
+           "Drive a square with sides of 50 cm"),
+    "zh": ("前进一米", "左转九十度", "往后退半米", "往右平移三十厘米", "走一个边长半米的正方形"),
+    "de": ("Fahr einen Meter vor", "Dreh dich um 90 Grad nach links", "Einen halben Meter zurück",
+           "30 cm nach rechts rutschen", "Fahr ein Quadrat mit 50 cm Seitenlänge"),
+}  # fmt: skip
+_PLACES = {"<,": "{x}{c}{v}", "<.": "{x} {v}", ">,": "{v}{c}{x}", ">.": "{v}{s}{x}", ",,": "{v}{c}{x}{c}{w}"}
+_NOWHERE = Context(Dialogue(), RobotState(ORIGIN, path_m=0.0, battery_percent=None))
 
 
 @dataclass(frozen=True)
 class Example:
-    """The features of a clause, whether it is an aside, what it counts, and its frame or sentence."""
+    """Clause `at` of `clauses` beside the order in clause `order`; whether it is an aside, what it counts, its file."""
 
-    slots: tuple[int, ...]
+    clauses: Sequence[Clause]
+    at: int
+    order: int
     aside: bool
     weight: float
-    frame: str
+    source: str
+
+    @property
+    def slots(self) -> tuple[int, ...]:
+        """Where the weights of its features are kept."""
+        return tuple({slot_of(name) for name in features(self.clauses, self.at, self.order)})
 
 
 def filled(frame: str, table: dict[str, list[str]], chance: random.Random) -> str:
@@ -69,60 +92,63 @@ def of_frames(language: str) -> Iterator[Example]:
                 around = chance.choice([*table["before"], *table["after"]])
                 if not aside and chance.random() < 0.15:
                     around = _QUOTE
-                text = around.format(x=said, v=chance.choice(motions))
-                yield from of_text(text, normalise(said), aside, 1.0 / EACH, f"{language} {frame}")
+                text = normalise(around.format(x=said, v=chance.choice(motions)))
+                yield from of_text(text, normalise(said), aside, OF_FRAMES / EACH, "frames")
 
 
-def of_text(text: str, said: str, aside: bool, weight: float, frame: str) -> Iterator[Example]:
-    """The clauses of `text` that lie within what is `said` beside an order."""
-    plain = normalise(text)
+def of_clauses(file: Path) -> Iterator[Example]:
+    """Each clause of a writer beside an order."""
+    language = file.stem[:2]
+    chance = random.Random(5)
+    comma, stop = ("，", "。") if language == "zh" else (", ", ". ")
+    for line in file.read_text(encoding="utf-8").splitlines():
+        kind, place, said = line.split("\t")
+        order, other = chance.choice(_ORDERS[language]), chance.choice(_ORDERS[language])
+        text = _PLACES[place].format(x=said, v=order, w=other, c=comma, s=stop)
+        yield from of_text(as_read(text), as_read(said).strip(" ,.:;!"), kind == "aside", 1.0, file.stem)
+
+
+def of_texts(file: Path) -> Iterator[Example]:
+    """Each clause of whole texts; those of one that orders nothing count as one together."""
+    rows = [line.replace("\\n", "\n").split("\t") for line in file.read_text(encoding="utf-8").splitlines()]
+    still = Counter(text for kind, text, _ in rows if kind == "still")
+    for kind, text, said in rows:
+        yield from of_text(as_read(text), said, kind == "aside", 1.0 / still.get(text, 1), file.stem)
+
+
+def as_read(text: str) -> str:
+    return normalise(in_known_words(text, _NOWHERE)[1])
+
+
+def of_text(plain: str, said: str, aside: bool, weight: float, source: str) -> Iterator[Example]:
+    """The clauses of `plain` that lie within what is `said` beside an order."""
     start = plain.find(said)
     clauses = clauses_of(plain)
     beside = [i for i, c in enumerate(clauses) if start <= c.start < start + len(said)]
     others = [i for i in range(len(clauses)) if i not in beside and clauses[i].moves]
-    if start < 0 or not others:
+    order = max(others, key=lambda i: has_amount(clauses[i]), default=-1)
+    if start < 0 or order < 0:
         return
     for i in beside:
         if len(plain[clauses[i].start : clauses[i].stop].strip(" ,.:;!")) <= len(said) + 1:
-            slots = tuple(slot_of(name) for name in features(clauses, i, others[0]))
-            yield Example(slots, aside, weight, frame)
+            yield Example(clauses, i, order, aside, weight, source)
 
 
-def of_corpora() -> Iterator[Example]:
-    """The clauses of real orders: what can be left out of one without changing its plan is an aside."""
-    files = [*CORPUS.glob("*.yaml"), *CORPUS.glob("everyday/*.yaml")]
-    files += [f for f in CORPUS.glob("sources/*.yaml") if not f.stem.startswith("hold_")]
-    for file in sorted(files):
-        for item in load_corpus(file):
-            if file.parent.name == "everyday" and item.number % 2 == 0:
-                continue
-            if len(item.turns) == 1 and (file.stem.endswith(LANGUAGES) or file.parent.name == "everyday"):
-                yield from of_order(item.turns[0].say, file.stem)
-    for saying in sayings("zh"):
-        if len(saying["turns"]) == 1:
-            yield from of_order(saying["turns"][0], "sayings")
+def common_words(given: Sequence[Example]) -> list[str]:
+    """The words that many of the writers use."""
+    users: dict[str, set[str]] = defaultdict(set)
+    for e in given:
+        if e.source != "frames":
+            said = e.clauses[e.at]
+            writer = f"{e.source} {zlib.crc32(repr(said).encode()) % WRITERS_A_FILE}"
+            for sign in said.signs:
+                users[sign.text].add(writer)
+    return sorted(word for word, by in users.items() if len(by) >= LEAST_WRITERS)
 
 
-def of_order(text: str, source: str) -> Iterator[Example]:
-    plain = normalise(text)
-    reads = read_acts(plain)
-    clauses = [read.clause for read in reads]
-    plan = Conversation().say(text).plan if len(clauses) > 1 else None
-    if plan is None or not any(clause.moves for clause in clauses):
-        return
-    order = max(range(len(reads)), key=lambda i: (clauses[i].moves, reads[i].log_odds))
-    for i, clause in enumerate(clauses):
-        rest = f"{plain[: clause.start]} {plain[clause.stop :]}".strip(" ,;:")
-        same = rest and Conversation().say(rest).plan == plan
-        language = "zh" if has_chinese(text) else "en"
-        if i != order and not (same and (clause.moves or clause.binds)):
-            slots = tuple(slot_of(name) for name in features(clauses, i, order))
-            yield Example(slots, bool(same), 1.0, f"{language} {source} {plain[clause.start : clause.stop]}")
-
-
-def fit(given: list[Example]) -> np.ndarray:
-    columns = np.fromiter((slot for e in given for slot in e.slots), np.int64)
-    rows = np.repeat(np.arange(len(given)), [len(e.slots) for e in given])
+def fit(given: Sequence[Example], slots: Sequence[tuple[int, ...]]) -> np.ndarray:
+    columns = np.fromiter((slot for of_one in slots for slot in of_one), np.int64)
+    rows = np.repeat(np.arange(len(given)), [len(of_one) for of_one in slots])
     y = np.array([e.aside for e in given], float)
     w = np.array([e.weight for e in given], float)
     weights, squares = np.zeros(SLOTS), np.full(SLOTS, 1e-8)
@@ -135,37 +161,32 @@ def fit(given: list[Example]) -> np.ndarray:
     return weights
 
 
-def check(given: list[Example]) -> None:
-    frames = sorted({e.frame for e in given})
-    random.Random(3).shuffle(frames)
-    found = []
-    for fold in range(FOLDS):
-        out = set(frames[fold::FOLDS])
-        weights = fit([e for e in given if e.frame not in out])
-        found += [(float(weights[list(e.slots)].sum()), e) for e in given if e.frame in out]
-    for language in LANGUAGES:
-        mine = [(odd, e) for odd, e in found if e.frame.startswith(language)]
+def check(given: list[Example], slots: list[tuple[int, ...]]) -> None:
+    for source in sorted({e.source for e in given} - {"frames"}):
+        kept = [i for i, e in enumerate(given) if e.source != source]
+        weights = fit([given[i] for i in kept], [slots[i] for i in kept])
+        found = [
+            (float(weights[list(slots[i])].sum()), e.aside) for i, e in enumerate(given) if e.source == source
+        ]
         for limit in (0.0, 1.0, 2.0, 3.0, 4.0):
-            asides = [odd >= limit for odd, e in mine if e.aside]
-            others = [odd >= limit for odd, e in mine if not e.aside]
-            print(f"{language} {limit}: asides {np.mean(asides):.3f} others {np.mean(others):.4f}")
-    if "--list" in sys.argv:
-        by: dict[str, list[float]] = {}
-        for odd, e in found:
-            by.setdefault(f"{'aside' if e.aside else 'other'} {e.frame}", []).append(odd)
-        for frame, odds in sorted(by.items(), key=lambda item: np.mean(item[1])):
-            print(f"   {np.mean(odds):6.2f} {frame}")
+            asides = [odds >= limit for odds, aside in found if aside]
+            others = [odds >= limit for odds, aside in found if not aside]
+            print(f"{source} {limit}: asides {np.mean(asides):.3f} others {np.mean(others):.4f}")
 
 
 def main() -> None:
     given = [example for language in LANGUAGES for example in of_frames(language)]
-    with mock.patch.object(beside, "aside_log_odds", return_value=-1.0):  # it must not teach itself
-        given += of_corpora()
-    print(len(given))
+    given += [e for file in sorted(ASIDES.glob("??_*.tsv")) for e in of_clauses(file)]
+    given += of_texts(ASIDES / "texts.tsv")
+    print(f"{len(given)} examples")
+    if "--check" not in sys.argv:
+        COMMON_WORDS.write_text("\n".join(common_words(given)) + "\n", encoding="utf-8")
+        aside_features.common_words.cache_clear()
+    slots = [example.slots for example in given]
     if "--check" in sys.argv:
-        check(given)
+        check(given, slots)
         return
-    weights = fit(given)
+    weights = fit(given, slots)
     (DATA / "beside.bin").write_bytes(np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8).tobytes())
 
 

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from chatrobot.plan.steps import Turn
+from chatrobot.plan.text import parse_plan
 from tests.language.dialogue_runner import Conversation
 
 
@@ -64,3 +65,24 @@ def test_an_order_that_is_taken_back_at_once_is_neither_driven_nor_proposed(said
 )
 def test_what_only_bounds_an_order_takes_nothing_back(said: str) -> None:
     assert Conversation().say(said).plan is not None
+
+
+@pytest.mark.parametrize(
+    "denial", ["don't move", "do not move", "please don't move", "unit four, do not move"]
+)
+@pytest.mark.parametrize(
+    "way", ["forward", "left", "back", "to the right", "a metre ahead", "1 m", "in a circle"]
+)
+def test_to_stand_still_with_a_way_behind_it_denies_the_motion(denial: str, way: str) -> None:
+    assert Conversation().say(f"{denial} {way}").plan is None
+
+
+@pytest.mark.parametrize("text", ["别动往前", "别动一米", "不要动往左", "nicht bewegen vorwärts"])
+def test_a_denied_way_moves_nothing_in_other_languages(text: str) -> None:
+    assert Conversation().say(text).plan is None
+
+
+def test_to_stand_still_for_a_time_is_still_a_wait() -> None:
+    assert Conversation().say("don't move for 5 s, then forward 1 m").plan == parse_plan(
+        "wait 5 s\ndrive 1 m"
+    )

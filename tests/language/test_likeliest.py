@@ -42,11 +42,10 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
         ("go forward 3 m at 0.5 m/s yippeekayay", "drive 3 m at 0.5 m/s"),
         ("back up 2 m zorblaxing", "drive 2 m back"),
         ("in that case turn left 90 degrees", "turn left 90 deg"),
-        ("go forward 1 m to clear the door", "drive 1 m"),
         ("zorblax 2 m forward", "drive 2 m"),
         ("zorblaxing half a metre to the left, and do that twice", "drive 0.5 m left\ndrive 0.5 m left"),
         ("shift her bodily to starboard, 40 cm", "drive 0.4 m right"),
-        ("turn right 30 degrees for the label frobnicator", "turn right 30 deg"),
+        ("turn right 30 degrees via the frobnicator", "turn right 30 deg"),
         ("turn lest 45 degrees", "turn left 45 deg"),
         ("Wusel dich einen halben Meter nach rechts", "drive 0.5 m right"),
         ("吭哧吭哧往前一米五", "drive 1.5 m"),
@@ -102,7 +101,7 @@ def test_what_only_names_the_motion_before_is_left_out_of_a_proposal() -> None:
 @pytest.mark.parametrize(
     ("text", "quoted"),
     [
-        ("往右转六十度，阿巴阿巴", "阿巴阿巴"),
+        ("往右转六十度，用阿巴阿巴", "用阿巴阿巴"),
         ("Jetzt kommt der Witz am Mecanum-Rad: einen halben Meter nach rechts", "Witz am Mecanum-Rad"),
     ],
 )

@@ -7,30 +7,36 @@ all others alike, and at the words and how they end. The weights are fitted by s
 from __future__ import annotations
 
 import itertools
-import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, without
+from chatrobot.language.aside_features import features, slot_of
 from chatrobot.language.data_files import DATA
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.quoting import quotes_ahead, quotes_behind, sentences_of
-from chatrobot.language.signs import Clause, Names, Sign, is_strong
+from chatrobot.language.set_off import has_amount
+from chatrobot.language.signs import Clause, Names, Sign
 
-SLOTS = 1 << 15
 SCALE = 24.0
 """A weight of one is this much in a byte."""
 
-SURE_ASIDE, MAYBE_ASIDE = 1.5, 0.0
+SURE_ASIDE, MAYBE_ASIDE = 0.5, 0.0
 """A clause with higher odds than the first is surely an aside; with higher odds than the second, the order without it
-is proposed. Frames that were left out chose them: `fit_beside --check`."""
-SURE_WITH_MOTION, CLEARLY_ASIDE = 3.0, 5.0
-"""The first, for a clause with a word of motion that could be said of the order; for one that tells of later."""
+is proposed. Writers that were left out chose them: `fit_beside --check`."""
+SURE_BOUND, CLEARLY_ASIDE = 2.5, 5.0
+"""The first, for a clause with an amount, a condition or a negation; that no part of a sentence orders anything."""
+SURELY_NOT_MEANT = 1.5
+"""A clause with lower odds that asks for what the robot cannot do may be meant: `grab the mug, go forward 1 m`."""
 NO_ASIDE = -2.0
 """A clause with lower odds is no aside, whatever else it sounds like: what is ordered beside it is proposed."""
 BEARS = -9.0
 """Its odds, where its words say that it is none."""
+WITHOUT_AMOUNT = 1.0
+"""So much less are the odds beside an order that tells no amount: it may be as little of one as they are."""
+SOUNDS_ORDERED = 1.5
+"""So much less are the odds of a clause that sounds like an order itself: `and then turn away from him`."""
 PART_OF_ASIDE, TOGETHER = -3.0, 1.0
 """The clauses of a sentence beside the order have the sum of their odds, less the second, where each has the first."""
 _REFERENCES = ((("flag", "again"),), (("flag", "other_way"),), (("verb", "undo"),))
@@ -60,6 +66,10 @@ def asides(reads: Sequence[Read]) -> dict[int, Aside]:
     for part in sentences_of(clauses):
         apart = order not in part and not any(_may_order(reads[i]) for i in part)
         odds = {i: _odds_of(clauses, i, order, begins=i == part[0]) for i in part if i != order}
+        bare = WITHOUT_AMOUNT if _is_bare(clauses[order]) else 0.0
+        odds = {
+            i: odd - bare - (SOUNDS_ORDERED if _sounds_ordered(reads[i]) else 0.0) for i, odd in odds.items()
+        }
         together = sum(odds.values()) - TOGETHER
         pooled = apart and len(part) > 1 and all(_may_be_pooled(clauses[i], odds[i]) for i in part)
         found |= {clauses[i].start: Aside(max(o, together) if pooled else o, apart) for i, o in odds.items()}
@@ -70,27 +80,34 @@ def _may_order(read: Read) -> bool:
     return read.log_odds >= ORDER and read.clause.moves and read.clause.measures
 
 
+def _is_bare(order: Clause) -> bool:
+    """Whether an order tells no amount, and does not ask for the motion before either: `undo that` is whole."""
+    return not has_amount(order) and (order.measures or not refers(order))
+
+
+def _sounds_ordered(read: Read) -> bool:
+    return read.log_odds >= ORDER and read.clause.moves
+
+
 def _may_be_pooled(clause: Clause, odds: float) -> bool:
     return odds >= PART_OF_ASIDE and not _is_bound(clause)
-
-
-def _tells_of_later(clause: Clause, odds: float) -> bool:
-    """`I have a test tomorrow`: whether what is said to be later is what it tells of."""
-    bound = [i for i, sign in enumerate(clause.signs) if sign.label in _BOUND]
-    later = all(clause.signs[i].label == "later" and i > 1 for i in bound)
-    return later and odds >= CLEARLY_ASIDE and not clause.denies and clause.end != ":"
 
 
 def _is_bound(clause: Clause) -> bool:
     then = lexicon().words.get(tuple(clause.signs[0].text.split("_")), ())  # what begins so is another order
     bound = any(sign.label in _BOUND for sign in clause.signs) or ("conn", "then") in then
-    return bound or clause.denies or clause.end == ":"
+    return bound or clause.denies or clause.end == ":" or _denies_motion(clause)
+
+
+def _denies_motion(clause: Clause) -> bool:
+    """`unit 4, do not move`: whether a negation and a word of motion stand in it."""
+    return clause.moves and any(sign.label == "not" for sign in clause.signs)
 
 
 def _odds_of(clauses: Sequence[Clause], i: int, order: int, *, begins: bool) -> float:
     """The odds of one clause; those of no aside where its first or last words quote the order or take it back."""
     own = aside_log_odds(clauses, i, order)
-    behind = any(other.measures for other in clauses[:i]) and not any(other.measures for other in clauses[i:])
+    behind = any(map(_says_way, clauses[:i])) and not any(map(_says_way, clauses[i:]))
     if behind:
         quotes = quotes_behind(clauses[i], begins=begins)
     else:
@@ -98,13 +115,36 @@ def _odds_of(clauses: Sequence[Clause], i: int, order: int, *, begins: bool) -> 
     return min(own, BEARS) if quotes else own
 
 
+def _says_way(clause: Clause) -> bool:
+    return clause.measures or any(sign.moves and sign.label in _WAYS for sign in clause.signs)
+
+
 def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
-    """Whether it is surely an aside: it has no amount, condition or negation that could be meant for the order."""
+    """Whether it is surely an aside, and has no amount that could be meant for the order."""
     aside = found.get(clause.start)
-    if aside is None or (_is_bound(clause) and not (aside.apart and _tells_of_later(clause, aside.odds))):
+    if aside is None or _may_bear_on_order(clause.signs, aside.apart) or says_motion_alone(clause):
         return False
-    least = SURE_WITH_MOTION if clause.tells else SURE_ASIDE
-    return aside.odds >= least and not _may_bear_on_order(clause.signs, aside.apart)
+    labels = {sign.label for sign in clause.signs}
+    # `not before noon`; `if it is dry`; `sorry, 5 s`; what is not said to its end: 左转，那个，就是
+    if (
+        clause.denies
+        or _first_label(clause) == "condition"
+        or "correction" in labels
+        or labels <= {"opening"}
+    ):
+        return False
+    is_bound = clause.tells or _is_bound(clause) or len(clause.signs) == 1
+    return aside.odds >= (SURE_BOUND if is_bound else SURE_ASIDE)
+
+
+def _first_label(clause: Clause) -> str:
+    return next((sign.label for sign in clause.signs if sign.label not in _POLITE), "")
+
+
+def says_motion_alone(clause: Clause) -> bool:
+    """`left, left, right`: whether every word of it is one of motion."""
+    said = [sign for sign in clause.signs if sign.label not in _POLITE and sign.text[:1].isalnum()]
+    return bool(said) and all(sign.moves for sign in said)
 
 
 def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
@@ -125,6 +165,13 @@ def refers(clause: Clause) -> bool:
     said = [known.get(tuple(sign.text.split("_"))) for sign in moving]
     beside = {sign.label for sign in clause.signs if not sign.moves}
     return bool(said) and all(meaning in _REFERENCES for meaning in said) and beside <= _POLITE
+
+
+def refers_alone(reads: Sequence[Read]) -> bool:
+    """Whether all that is ordered asks for the motion before: `undo that, I forgot to film it`."""
+    found = asides(reads)
+    kept = [read.clause for read in reads if not is_sure_aside(read.clause, found)]
+    return len(kept) == 1 and refers(kept[0])
 
 
 def are_asides(reads: Sequence[Read], left_out: Sequence[Read]) -> bool:
@@ -158,40 +205,7 @@ def any_may_bear(reads: Sequence[Read], left_out: Sequence[Read]) -> bool:
 def aside_log_odds(clauses: Sequence[Clause], i: int, order: int) -> float:
     """The odds, as a logarithm, that clause `i` is an aside to the order in clause `order`."""
     weights = _weights()
-    return sum(weights[slot_of(name)] for name in features(clauses, i, order)) / SCALE
-
-
-def slot_of(name: str) -> int:
-    """Where the weight of a feature is kept."""
-    return zlib.crc32(name.encode()) & (SLOTS - 1)
-
-
-def features(clauses: Sequence[Clause], i: int, order: int) -> Iterator[str]:
-    """The features of clause `i` beside clause `order`."""
-    clause = clauses[i]
-    signs = clause.signs
-    labels = ["^", *(sign.label if sign.label != sign.text else "?" for sign in signs), "$"]
-    texts = ["^", *(sign.text for sign in signs), "$"]
-    side = "<" if i < order else ">"
-    mark = "." if is_strong(clause.end) and clause.end != "?" else clause.end
-    yield "bias"
-    yield f"m{side}{mark}"
-    yield f"n{min(len(signs), 7)}"
-    yield f"o{side}{labels[1]}"
-    yield f"h{side}{texts[1]}"
-    yield f"z{mark}{labels[-2]}"
-    for at in range(1, len(labels)):
-        yield f"1{labels[at]}"
-        yield f"2{labels[at - 1]} {labels[at]}"
-        yield f"b{texts[at - 1]} {texts[at]}"
-        if at > 1:
-            yield f"3{labels[at - 2]} {labels[at - 1]} {labels[at]}"
-        if at < len(labels) - 1:
-            yield f"w{texts[at]}"
-            if labels[at] == "?" and texts[at].isascii():
-                yield f"s{texts[at][-2:]}"
-    for label in {label for label in labels[1:-1] if label != "?"}:
-        yield f"l{side}{label}"
+    return sum(weights[slot] for slot in {slot_of(name) for name in features(clauses, i, order)}) / SCALE
 
 
 @lru_cache(maxsize=1)

@@ -10,8 +10,9 @@ import re
 from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
+from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.numbers import is_chinese
-from chatrobot.language.tokens import SILENT, Atom, quantity
+from chatrobot.language.tokens import SILENT, Atom, joined, quantity
 from chatrobot.language.unclear import Unclear
 
 _NO = frozenset({"no", "nope", "nah", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
@@ -37,6 +38,8 @@ _OPPOSITE = ("other_way", "mirrored")
 _ORDERED = ("verb", "dir", "rot", "shape")
 _TOLD = frozenset({"q", "place", "flag", "nth"})
 """What makes a verb an order, beside a way and a shape."""
+_WAYS = frozenset({"dir", "rot", "shape", "place", "number", "unknown", "num"})
+_LENGTHS = frozenset({"length", "angle", "turns", "again", "return", "go", "turn", "count", "fold"})
 _OTHER_ROT = {"left": "right", "right": "left"}
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
@@ -228,6 +231,27 @@ def _same_kind(atoms: list[Atom], piece: Atom) -> int | None:
         if sideways or (atom.kind == piece.kind and piece.kind in ("pace", "verb", "shape")):
             return i
     return None
+
+
+def with_denied_motions(atoms: Sequence[Atom]) -> list[Atom]:
+    """`Don't move` is to stand still; `don't move forward`, 别动往前 denies the motion that follows."""
+    out: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        denied = _denied(atom.text) if (atom.kind, atom.value) == ("verb", "wait") else []
+        after = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "filler")), None)
+        is_bound = after is not None and (after.kind in _WAYS or after.value in _LENGTHS)
+        out += denied if denied and is_bound else [atom]
+    return out
+
+
+def _denied(written: str) -> list[Atom]:
+    """The negation that words begin with, and what it denies; nothing where they begin with none."""
+    units, known = cut(written), lexicon().words
+    for length in range(len(units) - 1, 0, -1):
+        kind, value = known.get(units[:length], (("", ""),))[0]
+        if kind == "negation":
+            return [Atom(kind, value, joined(units[:length])), Atom("verb", "go", joined(units[length:]))]
+    return []
 
 
 def without_negated(atoms: Sequence[Atom]) -> list[Atom]:

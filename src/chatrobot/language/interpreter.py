@@ -21,11 +21,12 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import with_manner
+from chatrobot.language.bare_order import with_tails_parted
 from chatrobot.language.beside import (
     any_may_bear,
     are_asides,
     odds_beside_asides,
-    refers,
+    refers_alone,
 )
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
@@ -115,7 +116,7 @@ class OfflineInterpreter:
         try:
             return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
-            parted = with_breaks(text, language)
+            parted = with_tails_parted(with_breaks(text, language), names_in(context))
             meant = self._meant(parted, language, context) if parted != text else None
             if meant is not None and meant.plan is not None:
                 return meant
@@ -266,7 +267,7 @@ class OfflineInterpreter:
             Unclear: where no clause orders anything.
         """
         odds = odds_beside_asides(plain, reads, names_in(context))
-        if (len(reads) == 1 and refers(reads[0].clause)) or wants_part(plain, language):
+        if refers_alone(reads) or wants_part(plain, language):
             odds = max(odds, ORDER)
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.

@@ -13,9 +13,11 @@ from dataclasses import dataclass, field
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
+from chatrobot.language.bare_order import bare_orders
 from chatrobot.language.beside import (
     MAYBE_ASIDE,
     SURE_ASIDE,
+    SURELY_NOT_MEANT,
     Aside,
     any_may_bear,
     asides,
@@ -116,17 +118,18 @@ def likeliest(
     told = [read for read in reads if is_sure_aside(read.clause, odds) and _is_no_part(read, reads, odds)]
     for clause in [clause for clause in reads if clause in (*apart, *told) or _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
-    is_sure = bool(apart or told) or not problem.refused
+    is_sure = bool(apart) or not problem.refused or _is_clearly_told(rest, problem, told, odds)
     is_sure &= not any_may_bear(reads, [read for read in reads if read not in (*rest.kept, *apart)])
     for _ in range(MOST_PARTS + 1):
         try:
-            found = read(rest.text)
+            meant = read(rest.text)
         except Unclear as stumbled:
             if not _left_out_clause(rest, stumbled, best, odds):
-                return _in_part(rest, stumbled, language, names, read, read_anew)
+                found = _in_part(rest, stumbled, language, names, read, read_anew)
+                return found or (None if problem.refused else _bare(plain, names, language, read))
             is_sure = False
             continue
-        return found if is_sure else proposed(found, language, rest.left_out)
+        return meant if is_sure else proposed(meant, language, rest.left_out)
     return None
 
 
@@ -161,6 +164,20 @@ def _in_part(
     # What was left out may be what is to be changed.
     if found is not None and (found.points or _means_the_same(found.meant, found.text, read_anew)):
         return proposed(found.meant, language, (*found.left_out, *rest.left_out))
+    return None
+
+
+def _bare(plain: str, names: Names, language: LanguageCode, read: Reader) -> Interpretation | None:
+    """What is ordered without what stands before, behind or beside it, proposed."""
+    for bare in bare_orders(plain, names):
+        if order_log_odds(read_acts(bare.text, names)) < ORDER:
+            continue
+        try:
+            found = read(bare.text)
+        except Unclear:
+            continue
+        if found.plan is not None:
+            return proposed(found, language, bare.left_out)
     return None
 
 
@@ -214,6 +231,13 @@ def _may_be_left_out(
     if aside is not None and aside.odds >= least and not read.clause.denies:
         return True
     return (read.clause.talks or not stumbled.refused) and _leaves_order(rest, read, best)
+
+
+def _is_clearly_told(rest: _Rest, problem: Unclear, told: Sequence[Read], odds: Mapping[int, Aside]) -> bool:
+    """Whether what is refused stands in a clause that is clearly an aside: not `grab the mug, forward 1 m`."""
+    squeezed = "".join(problem.part.split())
+    refused = [read for read in told if squeezed in "".join(rest.said(read).split())]
+    return bool(told) and all(odds[read.clause.start].odds >= SURELY_NOT_MEANT for read in refused)
 
 
 def _is_no_part(read: Read, reads: Sequence[Read], odds: Mapping[int, Aside]) -> bool:

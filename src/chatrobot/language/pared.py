@@ -251,13 +251,13 @@ def _is_light(sign: Sign) -> bool:
     if sign.moves or sign.is_name or sign.label in _KEPT:
         return False
     return all(
-        (unit[:1].isalpha() or unit == "-") and unit not in relation_words("words") and not _names_way(unit)
+        (unit[:1].isalpha() or unit == "-") and unit not in relation_words("words") and not names_way(unit)
         for unit in (sign.text.replace("_", "") if not sign.text.isascii() else "", *sign.text.split("_"))
         if unit
     )
 
 
-def _names_way(unit: str) -> bool:
+def names_way(unit: str) -> bool:
     """Whether a way is part of a word that nobody knows: `astarboard`, `rechtsseitig`."""
     word = unit.removesuffix(MARK)
     ways = _ways()

@@ -13,7 +13,7 @@ from chatrobot.language.clauses import read_frames
 from chatrobot.language.compass import with_headings
 from chatrobot.language.conditions import settle_condition
 from chatrobot.language.context import Context
-from chatrobot.language.corrections import corrected, with_slips, without_negated
+from chatrobot.language.corrections import corrected, with_denied_motions, with_slips, without_negated
 from chatrobot.language.dialogue import refer, walked
 from chatrobot.language.ellipsis import with_rates
 from chatrobot.language.facts import with_defined_units, with_words_counted
@@ -76,7 +76,7 @@ class Reading:
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
         atoms = around_places(tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear))
-        atoms = by_places(read_quantities(atoms))
+        atoms = by_places(with_denied_motions(read_quantities(atoms)))
         atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(atoms)))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
         atoms = without_cautions(with_words_counted(atoms, self.context.dialogue.words))

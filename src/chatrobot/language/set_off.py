@@ -31,7 +31,7 @@ def set_off(plain: str, reads: Sequence[Read], language: str, names: Names = ())
     found = [
         read
         for i, read in enumerate(reads)
-        if not _has_amount(read.clause)
+        if not has_amount(read.clause)
         and _is(read.clause, plain, "ahead" if i < first else "behind", language)
     ]
     ordered = [read for read in reads if read not in found]
@@ -60,19 +60,19 @@ def is_doubted(plain: str, clauses: Sequence[Clause], language: str) -> bool:
 
 
 def _is_order_of_its_own(clause: Clause) -> bool:
-    return _has_amount(clause) and any(sign.label in _DOES for sign in clause.signs)
+    return has_amount(clause) and any(sign.label in _DOES for sign in clause.signs)
 
 
 def _is_whole(clause: Clause) -> bool:
     """Whether a clause says what to do and how much, or asks for the motion before once more."""
-    return (clause.moves and _has_amount(clause)) or any(map(_repeats, clause.signs))
+    return (clause.moves and has_amount(clause)) or any(map(_repeats, clause.signs))
 
 
 def _repeats(sign: Sign) -> bool:
     return sign.label == "FLAG" and _AGAIN in lexicon().words.get(tuple(sign.text.split("_")), ())
 
 
-def _has_amount(clause: Clause) -> bool:
+def has_amount(clause: Clause) -> bool:
     """Whether it has a number with a unit, or a shape; `you are square with the wall` names none."""
     before: Sequence[Sign | None] = (None, *clause.signs)
     labels = [sign.label for last, sign in zip(before, clause.signs) if not _is_adjective(last, sign)]

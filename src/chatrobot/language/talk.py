@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from chatrobot.language.acts import MAYBE_ORDER, Read, read_acts
-from chatrobot.language.beside import SURE_ASIDE, Aside, asides
+from chatrobot.language.beside import Aside, asides, says_motion_alone
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES, form, load_table
 from chatrobot.language.interpretation import Interpretation
@@ -29,6 +29,8 @@ _POLITE = frozenset({"please", "opening", "social"})
 _SUBJECTS = frozenset({"mine", "kin", "other", "thing"})
 _MEANT = frozenset({"VERB", "DIR", "ROT", "SHAPE", "UNIT", "PLACE"})
 """Labels of words by which a clause could be meant for the robot, though somebody else is its subject."""
+TOLD = 1.5
+"""A clause with higher odds of an aside tells of something, so that a motion without an amount beside it may, too."""
 
 
 def not_ordered(plain: str, language: str, plan: Plan | None) -> str:
@@ -174,7 +176,8 @@ def _is_told(read: Read, found: Mapping[int, Aside]) -> bool:
     if not labels or (read.clause.signs[0].label in _SUBJECTS and not _MEANT & {*labels}):
         return True
     aside = found.get(read.clause.start)
-    return aside is not None and aside.odds >= SURE_ASIDE and not read.clause.tells
+    is_aside = aside is not None and aside.odds >= TOLD
+    return is_aside and not read.clause.tells and not says_motion_alone(read.clause)
 
 
 def _has_twists(steps: Sequence[Step]) -> bool:

@@ -51,7 +51,7 @@ def tokenise(text: str, words: Lexicon, names: dict[Key, Meaning], *, by_ear: bo
     covered = _cover(units, words, names, _HEARD if by_ear else _GUESS)
     atoms: list[Atom] = []
     for start, end, meaning in covered:
-        written = _join(units[start:end])
+        written = joined(units[start:end])
         if meaning is None:
             atoms.append(_bare(units[start]))
         else:
@@ -140,5 +140,6 @@ def _is_digit(unit: str) -> bool:
     return unit in _DIGITS or unit[0].isdigit()
 
 
-def _join(units: Key) -> str:
+def joined(units: Key) -> str:
+    """Units as they are written: Chinese ones without blanks."""
     return ("" if ord(units[0][0]) > 0x2E7F else " ").join(units)
