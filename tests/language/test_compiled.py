@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -48,13 +49,16 @@ def test_a_broken_file_is_built_anew(cache: Path, kept: bytes) -> None:
     assert build.times == 2
 
 
-def test_a_file_of_another_state_is_replaced(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_state_has_its_file_and_the_last_four_stay(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     build = Build()
-    compiled("words", build)
-    monkeypatch.setattr(tables, "_fingerprint", lambda: 7)
-    compiled("words", build)
-    assert build.times == 2
-    assert [file.name for file in cache.iterdir()] == ["words-00000007.bin"]
+    for state in (1, 2, 1, 3, 4, 5):
+        monkeypatch.setattr(tables, "_fingerprint", lambda state=state: state)
+        compiled("words", build)
+        os.utime(cache / f"words-{state:08x}.bin", (state, state))
+    assert build.times == 5
+    assert sorted(file.name for file in cache.iterdir()) == [
+        f"words-{state:08x}.bin" for state in (2, 3, 4, 5)
+    ]
 
 
 def test_without_a_folder_to_write_to_it_is_built(cache: Path) -> None:

@@ -20,6 +20,8 @@ Other = TypeVar("Other")
 Key = tuple[str, ...]
 Kept = dict[str, bytes]
 _CHECK_BYTES = 4
+_STATES_KEPT = 4
+"""Two checkouts whose starts take turns do not take each other's tables away."""
 
 
 class PhraseTable(Mapping[Key, Value]):
@@ -88,9 +90,10 @@ def compiled(name: str, build: Callable[[], Compiled]) -> Compiled:
     made = build()
     with contextlib.suppress(OSError):
         _leave(file, made)
-        for old in folder.glob(f"{name}-*.bin"):
-            if old != file:
-                old.unlink()
+        for old in sorted(folder.glob(f"{name}-*.bin"), key=lambda one: one.stat().st_mtime_ns)[
+            :-_STATES_KEPT
+        ]:
+            old.unlink()
     return made
 
 
