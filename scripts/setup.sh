@@ -1,6 +1,8 @@
 #!/bin/sh
-# Make .venv with everything in it; do nothing where it is there already and pyproject.toml has not changed.
+# Make .venv with everything in it, or with what the extras named need; do nothing where it has that already.
+# setup.sh [EXTRAS]
 set -eu
+extras=${1:-dev}
 python=${PYTHON:-python3}
 venv=.venv
 stamp=$venv/.installed
@@ -18,19 +20,24 @@ command -v "$python" >/dev/null 2>&1 ||
 "$python" -c 'import ensurepip, venv' 2>/dev/null ||
     fail "$python can make no virtual environments." "install what is missing, such as: sudo apt-get install python3-venv"
 
-# With CI=true the very versions of the lock file; otherwise the newest that pyproject.toml allows.
-wanted=$(cat pyproject.toml requirements.lock scripts/setup.sh | cksum)-${CI:-}
-if [ -x "$venv/bin/chatrobot" ] && [ "$(cat "$stamp" 2>/dev/null)" = "$wanted" ]; then
-    exit 0
+# The stamp says from which files and with which extras .venv was made. There is none while pip works: where it was
+# interrupted, .venv is made anew. With CI=true the very versions of the lock file; otherwise the newest that pyproject.toml allows.
+sources=$(cat pyproject.toml requirements.lock scripts/setup.sh | cksum)-${CI:-}
+installed=$(cat "$stamp" 2>/dev/null) || installed=
+if [ -x "$venv/bin/chatrobot" ]; then
+    case $installed in "$sources $extras" | "$sources dev") exit 0 ;; esac
 fi
 
-echo "setup: making $venv (a minute or two; later only when pyproject.toml changes)"
-"$venv/bin/python" -m pip --version >/dev/null 2>&1 || "$python" -m venv --clear "$venv"
+echo "setup: installing ChatRobot and what it needs into $venv (a minute or so; later only when pyproject.toml changes)"
+[ -n "$installed" ] && "$venv/bin/python" -m pip --version >/dev/null 2>&1 || "$python" -m venv --clear "$venv"
+rm -f "$stamp"
+trap 'exit 130' INT TERM
 constraints=
 [ "${CI:-}" = true ] && constraints="-c requirements.lock"
-echo "setup: installing ChatRobot and what it needs"
 # shellcheck disable=SC2086  # no constraints are no argument
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check $constraints -e '.[dev]' ||
-    fail "pip could not install everything: see above (is the network there?)"
-printf '%s' "$wanted" >"$stamp"
-echo "setup: done; start with: make run"
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check $constraints -e ".[$extras]" ||
+    {
+        printf '%s' "$installed" >"$stamp"
+        fail "pip could not install everything: see above (is the network there?)"
+    }
+printf '%s %s' "$sources" "$extras" >"$stamp"

@@ -97,7 +97,7 @@ def test_stop_does_not_even_load_the_parser_of_arguments() -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "most"),
-    [(["stop"], 0.4), (["--help"], 1.0), (["do", "forward 1 m", "--fast", "--world", "empty"], 6.0)],
+    [(["stop"], 0.4), (["--help"], 1.0), (["do", "forward 1 m", "--fast", "--world", "empty"], 5.0)],
 )
 def test_start_up_is_quick(arguments: list[str], most: float, tmp_path: Path) -> None:
     """So many times what Python needs for numpy and asyncio, in processor time; both the best of up to 15, in turn.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -58,7 +59,9 @@ def only_step(text: str) -> object:
 
 @pytest.mark.parametrize("frame", SAID)
 def test_drives_any_amount_any_way_however_politely(frame: str) -> None:
-    for (length, metres), (way, angle) in itertools.product(LENGTHS.items(), WAYS.items()):
+    """Each frame has every amount and every way, and each amount comes with each way in one of the frames."""
+    ways = itertools.islice(itertools.cycle(WAYS.items()), SAID.index(frame), None)
+    for (length, metres), (way, angle) in zip(LENGTHS.items(), ways):
         step = only_step(frame.format(length=length, way=way))
         assert isinstance(step, Drive)
         assert step.distance_m == pytest.approx(metres), (frame, length, way)
@@ -131,6 +134,7 @@ COMMANDS = [
     "先前进一米，再左转九十度",
     "走一个边长一米的正方形",
 ]
+plan_of_plain = cache(plan_of)
 STRAY = ["冰箱", "苹果树", "阿巴", "电视机", "三号桌", "沙发", "七喜", "月亮", "隔壁老王"]
 CONDITIONS = [
     "如果前面没人就", "要是下雨的话", "除非有人", "等他走了", "万一没电", "当门开的时候", "我喊停为止", "看到墙为止",
@@ -142,7 +146,7 @@ CONDITIONS = [
 def test_a_stray_word_never_makes_another_motion(command: str, stray: str, data: st.DataObject) -> None:
     at = data.draw(st.integers(0, len(command)))
     plan = plan_of(command[:at] + stray + command[at:])
-    assert plan is None or plan == plan_of(command)
+    assert plan is None or plan == plan_of_plain(command)
 
 
 @pytest.mark.parametrize("condition", CONDITIONS)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
-from chatrobot.language import data_files
-from chatrobot.language.data_files import compiled
+from chatrobot.language import compiled as tables
+from chatrobot.language.compiled import PhraseTable, by_first, compiled
 
 TABLE = {("go", "on"): (("verb", "go"),)}
 
@@ -48,13 +49,16 @@ def test_a_broken_file_is_built_anew(cache: Path, kept: bytes) -> None:
     assert build.times == 2
 
 
-def test_a_file_of_another_state_is_replaced(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_state_has_its_file_and_the_last_four_stay(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     build = Build()
-    compiled("words", build)
-    monkeypatch.setattr(data_files, "_fingerprint", lambda: 7)
-    compiled("words", build)
-    assert build.times == 2
-    assert [file.name for file in cache.iterdir()] == ["words-00000007.bin"]
+    for state in (1, 2, 1, 3, 4, 5):
+        monkeypatch.setattr(tables, "_fingerprint", lambda state=state: state)
+        compiled("words", build)
+        os.utime(cache / f"words-{state:08x}.bin", (state, state))
+    assert build.times == 5
+    assert sorted(file.name for file in cache.iterdir()) == [
+        f"words-{state:08x}.bin" for state in (2, 3, 4, 5)
+    ]
 
 
 def test_without_a_folder_to_write_to_it_is_built(cache: Path) -> None:
@@ -65,13 +69,13 @@ def test_without_a_folder_to_write_to_it_is_built(cache: Path) -> None:
 
 
 def test_the_state_is_of_every_data_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(data_files, "DATA", tmp_path)
+    monkeypatch.setattr(tables, "DATA", tmp_path)
     states = set()
     for text in ("", "a = 1", "a = 12"):
         (tmp_path / "words.toml").write_text(text)
-        data_files._fingerprint.cache_clear()
-        states.add(data_files._fingerprint())
-    data_files._fingerprint.cache_clear()
+        tables._fingerprint.cache_clear()
+        states.add(tables._fingerprint())
+    tables._fingerprint.cache_clear()
     assert len(states) == 3
 
 
@@ -81,3 +85,12 @@ def test_without_a_home_folder_it_is_built(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr("platformdirs.user_cache_path", no_home)
     assert compiled("words", Build()) == TABLE
+
+
+def test_a_table_of_phrases_holds_what_it_was_made_of(cache: Path) -> None:
+    assert not cache.exists()
+    made = {("go",): 1, ("go", "on"): 2, ("前", "进"): 3}
+    table: PhraseTable[int] = PhraseTable(compiled("phrases", lambda: by_first(made)))
+    assert (table.get(("go", "on")), table["前", "进"], table.get(("go", "away"), 0)) == (2, 3, 0)
+    assert [key in table for key in (("go",), ("on",), (), "go")] == [True, False, False, False]
+    assert table == made

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
+from chatrobot.language.compiled import compiled
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import compiled
 from chatrobot.language.gloss_tables import letters_of, shared_words, words_of
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.lexicon import lexicon

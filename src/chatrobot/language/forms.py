@@ -7,6 +7,7 @@ from functools import cache
 from typing import NamedTuple
 
 from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.rules import Form, forms_of
 
 UNNAMED = "★"
 """The name of a place that was remembered without one: it is what `that place` means."""
@@ -20,10 +21,11 @@ class Definition(NamedTuple):
 
 
 @cache
-def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    return tuple(
-        re.compile(_in_full(p, language)) for p in load_table(language, "dialogue_forms").get(name, ())
-    )
+def _patterns(language: str, name: str) -> tuple[Form, ...]:
+    def sources() -> list[str]:
+        return [_in_full(p, language) for p in load_table(language, "dialogue_forms").get(name, ())]
+
+    return forms_of(f"dialogue_{language}_{name}", sources)
 
 
 def _in_full(pattern: str, language: str) -> str:

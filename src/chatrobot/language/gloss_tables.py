@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from chatrobot.language.data_files import compiled, expand, load_table
+from chatrobot.language.compiled import compiled
+from chatrobot.language.data_files import expand, load_table
 from chatrobot.language.rules import Rule, rules
 
 VERB = "^"

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from chatrobot.language.answers import with_manner
 from chatrobot.language.command import of_before, read_command
-from chatrobot.language.data_files import form, forms, load_table
+from chatrobot.language.data_files import load_table
 from chatrobot.language.dialogue import refer
 from chatrobot.language.earlier_turns import answer_to_question
 from chatrobot.language.edit_words import Edit
@@ -24,6 +24,7 @@ from chatrobot.language.likeliest import proposed
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.reading import Reading, frames_of
+from chatrobot.language.rules import form, forms
 from chatrobot.language.selections import step_kinds
 from chatrobot.language.starting import without_hold
 from chatrobot.language.tokens import Atom

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from chatrobot.language.data_files import LANGUAGES, compiled, expand, load_table
+from chatrobot.language.compiled import Key, PhraseTable, by_first, compiled
+from chatrobot.language.data_files import LANGUAGES, expand, load_table
 
 FILES = (
     "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "compass",
@@ -42,7 +43,6 @@ _NEVER_MEANT = frozenset(
 )
 _POLITE = frozenset({"please", "then", "after", "robot", "thanks", "could", "would", "until"})
 Meaning = tuple[tuple[str, str], ...]
-Key = tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,8 @@ class Lexicon:
     words besides, in which no typo is seen.
     """
 
-    words: dict[Key, Meaning]
-    guesses: dict[Key, Meaning]
+    words: PhraseTable[Meaning]
+    guesses: PhraseTable[Meaning]
     longest: dict[str, int]
     core: frozenset[str]
     latin: frozenset[str]
@@ -88,7 +88,8 @@ def cut(text: str) -> Key:
 @lru_cache(maxsize=1)
 def lexicon() -> Lexicon:
     """The words of every language, read once."""
-    return Lexicon(*compiled("lexicon", _parts))
+    words, guesses, *others = compiled("lexicon", _parts)
+    return Lexicon(PhraseTable(words), PhraseTable(guesses), *others)
 
 
 def _parts() -> tuple[Any, ...]:
@@ -122,7 +123,7 @@ def _parts() -> tuple[Any, ...]:
         for value, listed in load_table("en", "homophones")["before_unit"].items()
         for word in listed
     }
-    return words, guesses, longest, core | _POLITE, latin, latin | ordinary, before
+    return by_first(words), by_first(guesses), longest, core | _POLITE, latin, latin | ordinary, before
 
 
 def _keys(patterns: list[str]) -> list[Key]:

@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language import forms
+from chatrobot.language.compiled import Key
 from chatrobot.language.context import Context, Place
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 from chatrobot.language.facts import unit_length_m
-from chatrobot.language.lexicon import Key, Meaning, cut, lexicon
+from chatrobot.language.lexicon import Meaning, cut, lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.typos import edit_distance
 

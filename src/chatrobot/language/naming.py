@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import forms
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.rules import forms
 from chatrobot.language.unclear import Unclear
 
 _QUOTES = " \"'“”„‚‘’「」『』.,!?。"

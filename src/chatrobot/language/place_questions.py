@@ -49,7 +49,7 @@ def answer_about_places(plain: str, language: LanguageCode, context: Context) ->
     """The answer to a normalised text that asks about places and nothing else; None for any other text."""
     said = plain.strip(" ?!.。,~")
     for rule in _rules(language):
-        found = rule.pattern.fullmatch(said) if rule.is_in(said) else None
+        found = rule.fullmatch(said)
         if found is None:
             continue
         kind, named = rule.said, found.groupdict()

@@ -14,6 +14,7 @@ from chatrobot.language.interpretation import Interpretation, LanguageCode, Plac
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.phrases import say
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rules import Form, forms_of
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.unclear import Unclear
 
@@ -23,10 +24,13 @@ AWAY_M = 1.0
 
 
 @cache
-def _patterns(language: str, name: str) -> tuple[re.Pattern[str], ...]:
-    table = load_table(language, "putting")
-    things = f"(?P<thing>{'|'.join(table['things'])})"
-    return tuple(re.compile(pattern.replace("THING", things)) for pattern in table[name])
+def _patterns(language: str, name: str) -> tuple[Form, ...]:
+    def sources() -> list[str]:
+        table = load_table(language, "putting")
+        things = f"(?P<thing>{'|'.join(table['things'])})"
+        return [pattern.replace("THING", things) for pattern in table[name]]
+
+    return forms_of(f"putting_{language}_{name}", sources)
 
 
 def read_putting(plain: str, language: LanguageCode, context: Context) -> Interpretation | None:

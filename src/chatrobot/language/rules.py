@@ -7,10 +7,11 @@ every match needs; which words those are is read off the pattern.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, cached_property
 
-from chatrobot.language.data_files import compiled, in_full
+from chatrobot.language.compiled import compiled
+from chatrobot.language.data_files import in_full, load_table
 
 _SHORTEST = 2
 _TOKEN = re.compile(
@@ -22,34 +23,89 @@ _TOKEN = re.compile(
 Needed = frozenset[str]
 
 
-class Rule:
-    """A pattern, and what is put in place of what it matches."""
+class Form:
+    """A pattern, which answers what `re.Pattern` of that name would."""
 
-    def __init__(self, pattern: str, said: str, needed: tuple[str, ...]) -> None:
-        self._source, self.said = pattern, said
-        self._needed = needed
-        self._is_tried = not self._needed
+    def __init__(self, source: str, needed: Sequence[str] = ()) -> None:
+        self._source, self._needed = source, needed
+        self._is_tried = not needed
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
         """The pattern, compiled at the first look."""
         return re.compile(self._source)
 
+    def search(self, text: str) -> re.Match[str] | None:
+        """Return the first match in `text`."""
+        return self.pattern.search(text) if self._is_tried or self._may_match(text) else None
+
+    def fullmatch(self, text: str) -> re.Match[str] | None:
+        """Return the match that is all of `text`."""
+        return self.pattern.fullmatch(text) if self._is_tried or self._may_match(text) else None
+
+    def sub(self, put: str | Callable[[re.Match[str]], str], text: str, count: int = 0) -> str:
+        """Return `text` with `put` in place of each match, or of the first `count`."""
+        return self.pattern.sub(put, text, count=count) if self.search(text) else text
+
+    def _may_match(self, text: str) -> bool:
+        for word in self._needed:  # `any` would take three times as long, and most stop here
+            if word in text:
+                self._is_tried = True
+                return True
+        return self._is_tried
+
+
+class Rule(Form):
+    """A pattern, and what is put in place of what it matches."""
+
+    def __init__(self, source: str, said: str, needed: Sequence[str]) -> None:
+        super().__init__(source, needed)
+        self.said = said
+
     def is_in(self, text: str) -> bool:
         """Return whether it matches somewhere in `text`."""
-        if not self._is_tried:
-            for word in self._needed:  # `any` would take three times as long, and most stop here
-                if word in text:
-                    break
-            else:
-                return False
-            self._is_tried = True
-        return self.pattern.search(text) is not None
+        return self.search(text) is not None
 
     def applied(self, text: str) -> str:
         """Return `text` with each match replaced."""
+        if not (self._is_tried or self._may_match(text)):
+            return text
         # Most do not match, and to prepare what is put there takes longer than to see that.
-        return self.pattern.sub(self.said, text) if self.is_in(text) else text
+        return self.pattern.sub(self.said, text) if self.pattern.search(text) else text
+
+
+_NEVER = Form("(?!)")
+
+
+@cache
+def forms(language: str, table: str, name: str) -> tuple[Form, ...]:
+    """The patterns that a table lists under a name, with its `[parts]` put in; none where that language has none."""
+
+    def sources() -> list[str]:
+        found = load_table(language, table)
+        listed = found.get(name, ())
+        listed = [listed] if isinstance(listed, str) else listed
+        return [in_full(pattern, found.get("parts", {})) for pattern in listed]
+
+    return forms_of(f"{table}_{language}_{name}", sources)
+
+
+def form(language: str, table: str, name: str) -> Form:
+    """The one pattern under that name; one that never matches where that language has none."""
+    return next(iter(forms(language, table, name)), _NEVER)
+
+
+def forms_of(name: str, sources: Callable[[], Iterable[str]]) -> tuple[Form, ...]:
+    """Return the patterns of these sources, in order.
+
+    Args:
+        name: of the file in the cache folder where they, and what each needs, are kept.
+    """
+
+    def build() -> tuple[tuple[str, tuple[str, ...]], ...]:
+        return tuple((source, tuple(sorted(needed_by(source)))) for source in sources())
+
+    return tuple(Form(*one) for one in compiled(f"forms_{name}", build))
 
 
 def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) -> tuple[Rule, ...]:

@@ -7,7 +7,7 @@ instead. The same file has the words by which an amount or a shape takes the pla
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -19,6 +19,7 @@ from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
 from chatrobot.language.last_motion import laps
 from chatrobot.language.measures import whole_number
+from chatrobot.language.rules import Form, forms_of
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import once_of
@@ -278,7 +279,11 @@ def names_a_part(plain: str, language: str) -> bool:
 
 
 @cache
-def _forms(language: str, name: str = "forms") -> tuple[re.Pattern[str], ...]:
+def _forms(language: str, name: str = "forms") -> tuple[Form, ...]:
+    return forms_of(f"selections_{language}_{name}", lambda: _in_full(language, name))
+
+
+def _in_full(language: str, name: str) -> Iterator[str]:
     table = load_table(language, "selections")
     words = {
         **table.get("parts", {}),
@@ -288,10 +293,8 @@ def _forms(language: str, name: str = "forms") -> tuple[re.Pattern[str], ...]:
     }
     parts = {part: "|".join(sorted(named, key=len, reverse=True)) for part, named in words.items()}
     parts["number"] += r"|\d{1,2}"
-    return tuple(
-        re.compile(re.sub(r"(?<!\?P)<(\w+)>", lambda m: f"(?:{parts[m[1]]})", form))
-        for form in table.get(name, ())
-    )
+    for form in table.get(name, ()):
+        yield re.sub(r"(?<!\?P)<(\w+)>", lambda m: f"(?:{parts[m[1]]})", form)
 
 
 def points_at_before(atom: Atom, language: str) -> bool:

@@ -11,10 +11,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import LANGUAGES, form, forms, load_table
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.gloss import gloss
 from chatrobot.language.normalise import normalise
 from chatrobot.language.rephrase import plain_text
+from chatrobot.language.rules import form, forms
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from chatrobot.language.data_files import form, load_table
+from chatrobot.language.data_files import load_table
+from chatrobot.language.rules import form
 
 
 def is_side(text: str, language: str) -> bool:

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from chatrobot.language.data_files import LANGUAGES, compiled, expand, load_table
-from chatrobot.language.lexicon import UNIT, Key, lexicon
+from chatrobot.language.compiled import Kept, Key, PhraseTable, by_first, compiled
+from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.lexicon import UNIT, lexicon
 from chatrobot.language.until import until_spans
 
 _STRONG, _WEAK = frozenset(".!?;。…\n"), frozenset(",:、—~")
@@ -264,11 +265,12 @@ def _named(words: Sequence[str], names: Names) -> Iterator[tuple[int, int]]:
 
 
 @lru_cache(maxsize=1)
-def _table() -> tuple[dict[Key, tuple[str, bool]], dict[str, int]]:
-    return compiled("signs", _labels)
+def _table() -> tuple[PhraseTable[tuple[str, bool]], dict[str, int]]:
+    table, longest = compiled("signs", _labels)
+    return PhraseTable(table), longest
 
 
-def _labels() -> tuple[dict[Key, tuple[str, bool]], dict[str, int]]:
+def _labels() -> tuple[Kept, dict[str, int]]:
     """(label and whether it is a word of motion, by written form; the longest form, by its first unit)."""
     words = lexicon()
     table: dict[Key, tuple[str, bool]] = {}
@@ -291,4 +293,4 @@ def _labels() -> tuple[dict[Key, tuple[str, bool]], dict[str, int]]:
     longest: dict[str, int] = {}
     for key in table:
         longest[key[0]] = max(longest.get(key[0], 0), len(key))
-    return table, longest
+    return by_first(table), longest

@@ -7,14 +7,14 @@ beyond what the map has there, at the distance that a way around it keeps.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import LANGUAGES, form
+from chatrobot.language.data_files import LANGUAGES
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.rules import Form, form
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.ring import RING_MARGIN_M, middle_of, point_beside
@@ -109,7 +109,7 @@ def _is(kind: str, atoms: Sequence[Atom]) -> bool:
 
 
 @cache
-def _patterns(kind: str) -> list[re.Pattern[str]]:
+def _patterns(kind: str) -> list[Form]:
     return [form(code, "standing", kind) for code in LANGUAGES]
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.language.context import Dialogue
-from chatrobot.language.data_files import form
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.rules import form
 from chatrobot.language.typos import correct
 from chatrobot.language.unclear import Unclear
 

@@ -9,13 +9,13 @@ from functools import cache
 from chatrobot.language.acts import MAYBE_ORDER, Read, read_acts
 from chatrobot.language.beside import Aside, asides, says_motion_alone
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import LANGUAGES, form, load_table
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.names import names_in
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quoting import holds_back
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rule, form, rules
 from chatrobot.language.set_off import is_doubted
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from chatrobot.language.lexicon import Key, Lexicon, Meaning, cut
+from chatrobot.language.compiled import Key
+from chatrobot.language.lexicon import Lexicon, Meaning, cut
 from chatrobot.language.typos import correct
 
 _DIGITS = frozenset("零一二两三四五六七八九十半")

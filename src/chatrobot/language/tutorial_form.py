@@ -6,8 +6,9 @@ import math
 import re
 from functools import lru_cache
 
+from chatrobot.language.compiled import Key
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
-from chatrobot.language.lexicon import Key, cut, lexicon
+from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.numbers import is_kind
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, tokenise

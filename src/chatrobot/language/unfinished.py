@@ -9,8 +9,8 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
-from chatrobot.language.data_files import LANGUAGES, form, load_table
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.rules import Rule, form, rules
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rules import Form, forms_of
 from chatrobot.language.tokens import tokenise
 
 UNSAID_M = 0.5
@@ -28,10 +29,12 @@ class UntilObstacle(NamedTuple):
 
 
 @cache
-def _patterns(language: str, kind: str = "patterns") -> tuple[re.Pattern[str], ...]:
-    table = load_table(language, "until")
-    thing = table.get("thing", "")
-    return tuple(re.compile(p.replace("THING", thing)) for p in table.get(kind, ()))
+def _patterns(language: str, kind: str = "patterns") -> tuple[Form, ...]:
+    def sources() -> list[str]:
+        table = load_table(language, "until")
+        return [p.replace("THING", table.get("thing", "")) for p in table.get(kind, ())]
+
+    return forms_of(f"until_{language}_{kind}", sources)
 
 
 def read_until(text: str, language: str) -> UntilObstacle | None:

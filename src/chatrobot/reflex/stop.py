@@ -14,7 +14,7 @@ from chatrobot.reflex import words
 from chatrobot.reflex.words import ALL
 
 _WORD = re.compile(r"[a-zß-öø-ÿ0-9]+(?:['’][a-zß-öø-ÿ]+)*|[\u3400-\u9fff]")
-_STRETCHED = re.compile(r"(.)\1{2,}")
+_STRETCHED, _DOUBLED = re.compile(r"(.)\1{2,}"), re.compile(r"(.)\1+")
 _WIDE = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
 _FOLD = str.maketrans(words.ALL.fold)
 
@@ -27,13 +27,13 @@ Table = dict[str, set[Phrase]]
 def units_of(text: str) -> Phrase:
     """Several questions are asked about one text: it is cut once."""
     lowered = text.translate(_WIDE).lower().replace("’", "'").replace("-", " ").translate(_FOLD)
-    return tuple(_unstretched(word) for word in _WORD.findall(lowered))
+    return tuple(_unstretched(word) if _DOUBLED.search(word) else word for word in _WORD.findall(lowered))
 
 
 def _unstretched(word: str) -> str:
     """`stoooop` → `stop`, `haaalt` → `halt`; other words stay, and so does `stoop`, which is one."""
     short = _STRETCHED.sub(r"\1", word)
-    single = re.sub(r"(.)\1+", r"\1", short)
+    single = _DOUBLED.sub(r"\1", short)
     return single if single in words.ALL.stretched and word not in words.ALL.not_stretched else short
 
 

@@ -28,15 +28,15 @@ def chosen_model(option: str, folder: Path | None, *, server_held: bool = False)
         InputError: the stored choice cannot be read.
     """
     from chatrobot.models.config import ModelConfig, resolve
-    from chatrobot.models.make import make_model
 
     config = ModelConfig(folder, session=time.strftime("%Y-%m-%d %H:%M:%S"))
     choice = resolve(option, config)
     if choice is None or choice.name == "none":
         return None
+    from chatrobot.models.make import make_model  # with asyncio, which nothing else here needs
+
     provider, colon, name = choice.name.partition(":")
-    if server_held:
-        provider = SERVER_HELD.get(provider, provider)
+    provider = SERVER_HELD.get(provider, provider) if server_held else provider
     return make_model(f"{provider}{colon}{name}", config)
 
 
