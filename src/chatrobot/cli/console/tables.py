@@ -86,9 +86,7 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
         if field.name not in profile.sources:
             continue
         value = f"{number:g} {_UNITS[field.name.rpartition('_')[2]]}"
-        table.add(
-            words.say(f"limit_{field.name}"), value, Text(profile.sources.get(field.name, ""), "dim")
-        )
+        table.add(words.say(f"limit_{field.name}"), value, Text(profile.sources.get(field.name, ""), "dim"))
     yield Padding(table, (1, 0, 0, INDENT))
 
 
@@ -99,9 +97,7 @@ def places_table(words: Words, world: World, remembered: Mapping[str, Place]) ->
     table = _Rows(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
     for name, place in remembered.items():
         note = words.say("place_yours" if place.usable else "place_old")
-        table.add(
-            Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim")
-        )
+        table.add(Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim"))
     own = {name for name, place in remembered.items() if place.usable}
     for main, pose in world.places.items():
         name, *others = by_language(world.names_of(main), words.language)
