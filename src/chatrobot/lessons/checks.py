@@ -15,6 +15,7 @@ from typing import Any, Literal, Protocol
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed, number
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.normalise import has_chinese
 from chatrobot.lessons.attempt import Figures, Values
 from chatrobot.plan.text import parse_plan
@@ -302,7 +303,7 @@ def _heading(given: Field, _: World) -> Check:
 
 def _words(given: Field) -> tuple[str, ...]:
     if given.is_mapping:
-        return tuple(word for each in given.mapping("en", "zh").values() for word in _words(each))
+        return tuple(word for each in given.mapping(*REPLY_LANGUAGES).values() for word in _words(each))
     return tuple(item.text() for item in given.filled())
 
 
