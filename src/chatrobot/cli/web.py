@@ -24,6 +24,7 @@ from chatrobot.compose import Connection, Setup
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, Notice, TruePose
 from chatrobot.dialogue.pump import Pump
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
 from chatrobot.sim.robot import TRUTH_TOPIC
@@ -120,6 +121,7 @@ def _serve(
         problems.append(error)
 
     agents: AgentHost | None = None
+    connection.session.understanding.warm(*REPLY_LANGUAGES)  # a page's first sentence is in any of them
     pump = Pump(connection.session, lose)
     room.open(connection, pump.post, is_simulated=setup.on in SIMULATED)
     if lesson is not None:
@@ -169,6 +171,7 @@ def _serve_class(
     def lose(error: Exception) -> None:
         problems.append(error)
 
+    robots[0].connection.session.understanding.warm(*REPLY_LANGUAGES)
     is_heard = classroom.sheet is not None or classroom.recordings is not None
     classroom.open(robots, lose, RobotWires(robots, TRUTH_TOPIC) if is_heard else None)
     try:
