@@ -132,8 +132,7 @@ def _serve(
             tell()
             pump.start()
             agents = _host_agents(connection, server.access, setup, room)
-            while not (watch.is_leaving or problems):
-                time.sleep(0.1)
+            _wait_for_end(watch, problems)
             server.close()
     finally:
         if agents is not None:
@@ -145,6 +144,11 @@ def _serve(
     if problems:
         raise problems[0]
     return STOPPED
+
+
+def _wait_for_end(watch: SignalWatch, problems: list[Exception]) -> None:
+    while not (watch.is_leaving or problems):
+        time.sleep(0.1)
 
 
 def _hear(room: Room, lesson: RoomLesson | None, event: Event) -> None:
@@ -178,8 +182,7 @@ def _serve_class(
         with SignalWatch(classroom.stop) as watch:
             server.start(*sockets)
             tell()
-            while not (watch.is_leaving or problems):
-                time.sleep(0.1)
+            _wait_for_end(watch, problems)
             server.close()
     finally:
         classroom.close()

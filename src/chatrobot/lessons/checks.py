@@ -203,10 +203,9 @@ class Forbidden:
 
     def judge(self, figures: Figures) -> Finding:
         """Name the word that was used."""
-        for text in figures.texts:
-            for word in self.words:
-                if _uses(text, word):
-                    return Finding("forbidden", "broken", "forbidden_used", {"word": word}, is_limit=True)
+        used = [word for text in figures.texts for word in self.words if _uses(text, word)]
+        if used:
+            return Finding("forbidden", "broken", "forbidden_used", {"word": used[0]}, is_limit=True)
         return Finding("forbidden", "done", "forbidden_done", {}, is_limit=True)
 
 

@@ -6,12 +6,11 @@ import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.console import Group, RenderableType
 from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
-from chatrobot.cli.console.lines import INDENT, indented
+from chatrobot.cli.console.lines import INDENT, Rows, indented
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import Extent, Orientation, extent_around, extent_of_world
@@ -20,9 +19,6 @@ from chatrobot.language.context import Place
 from chatrobot.language.phrases import by_language
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
-
-LEAST_TABLE_WIDTH = 72
-"""Columns below which a table leaves its last column no room."""
 
 _UNITS = {
     "mps": "m/s", "mps2": "m/s²", "mps3": "m/s³", "radps": "rad/s", "radps2": "rad/s²", "radps3": "rad/s³",
@@ -47,7 +43,7 @@ def help_table(words: Words, world: World, commands: Sequence[tuple[str, str]]) 
         Text("    ").append(part.strip(), "cyan")
         for part in words.say("help_examples", place=place).split("|")
     ]
-    table = _Rows()
+    table = Rows()
     for typed, help_code in commands:
         table.add(Text(typed, "bold"), words.say(help_code))
     return Group(
@@ -80,7 +76,7 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
         turn=f"{math.degrees(profile.defaults.turn_rad):.0f}",
     )
     yield indented(Text(f"{footprint}\n{defaults}"))
-    table = _Rows(words.say("robot_limit"), "", words.say("robot_source"))
+    table = Rows(words.say("robot_limit"), "", words.say("robot_source"))
     for field in dataclasses.fields(profile.limits):
         number = getattr(profile.limits, field.name)
         if field.name not in profile.sources:
@@ -94,7 +90,7 @@ def places_table(words: Words, world: World, remembered: Mapping[str, Place]) ->
     """List places, the person's own first, then the world's."""
     if not world.places and not remembered:
         return indented(Text(words.say("no_places"), "dim"))
-    table = _Rows(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
+    table = Rows(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
     for name, place in remembered.items():
         note = words.say("place_yours" if place.usable else "place_old")
         table.add(Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim"))
@@ -104,36 +100,6 @@ def places_table(words: Words, world: World, remembered: Mapping[str, Place]) ->
         if main not in own:
             table.add(name, words.pose(pose), Text(", ".join(others), "dim"))
     return Padding(table, (0, 0, 0, INDENT))
-
-
-class _Rows:
-    """Rows as a table; where that would be too narrow to read, each as a line with the rest of it below."""
-
-    def __init__(self, *heads: str) -> None:
-        self._heads = heads
-        self._rows: list[tuple[Text, ...]] = []
-
-    def add(self, *cells: str | Text) -> None:
-        """Add a row; the first cell names it."""
-        self._rows.append(tuple(Text(cell) if isinstance(cell, str) else cell for cell in cells))
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        if options.max_width >= LEAST_TABLE_WIDTH:
-            yield self._table()
-            return
-        for name, *rest in self._rows:
-            yield name
-            yield Padding(Text(" · ").join(cell for cell in rest if cell.plain), (0, 0, 0, INDENT))
-
-    def _table(self) -> Table:
-        heads = self._heads
-        table = Table(box=None, show_header=bool(heads), pad_edge=False, padding=(0, 2), header_style="dim")
-        table.add_column(heads[0] if heads else "", no_wrap=True)
-        for head in heads[1:] or ("",):
-            table.add_column(head, overflow="fold")
-        for row in self._rows:
-            table.add_row(*row)
-        return table
 
 
 COLOURS = {
