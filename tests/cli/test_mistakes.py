@@ -25,6 +25,12 @@ from chatrobot.core.errors import UsageError
         (["do", "hi", "--rounds", "1.5"], "'1.5' is not a whole number"),
         (["fake-model", "x.yaml", "--port", "99999"], "0 to 65535"),
         (["model", "key"], "no provider is named"),
+        (["world"], "'chatrobot world' needs an action (list, draw, check, new)"),
+        (
+            ["world", "draw", "home", "--png", "x.png"],
+            "does not take --png x.png (see chatrobot world draw --help)",
+        ),
+        (["do", "hi", "--record", "hi.txt"], "'chatrobot do' does not take hi.txt (--record FILE.mcap)"),
         (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
     ],
 )

@@ -100,6 +100,26 @@ def test_a_motion_shows_its_plan_then_the_strip_then_what_was_measured(kept):
     kept.wait_for(STANDING)
 
 
+def test_a_stop_that_is_typed_while_the_history_is_searched_stops_the_motion(kept):
+    kept.enter("turn left 300 degrees")
+    kept.wait_for(MOVING)
+    kept.control("r")
+    kept.wait_for("reverse-i-search")
+    kept.enter("stop")
+    kept.wait_for(STOPPED)
+    kept.control("r")
+    kept.type("left 300")
+    kept.wait_for("`left 300': turn left 300 degrees")
+    kept.type("\r")
+    kept.wait_for("› turn left 300 degrees", times=2)
+    kept.control("r")
+    kept.wait_for("reverse-i-search")
+    kept.control("c")
+    kept.wait_for("The robot stops.")
+    kept.enter("where are you?")
+    kept.wait_for("• I am ")
+
+
 def test_a_stop_word_stops_the_motion_it_is_typed_into(kept):
     kept.enter("forward 2 m")
     kept.wait_for(MOVING)

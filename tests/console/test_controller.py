@@ -1,6 +1,7 @@
 """What a typed line and a key do, without a terminal and without a robot."""
 
 import threading
+from types import SimpleNamespace
 
 import pytest
 
@@ -236,6 +237,22 @@ def test_a_map_of_a_size_that_there_is_not_says_which_there_are(controller, log)
         log
     )
     assert controller.status_bar.shows_map
+
+
+def test_a_stop_where_nothing_is_under_way_is_answered(controller, log):
+    controller.enter("/stop")
+    assert told(log)[0] == ("stop", "/stop")
+    assert "The robot was told to stop; nothing was under way." in shown(log)
+
+
+def test_the_name_of_a_kept_program_writes_no_second_one(controller, log):
+    library = SimpleNamespace(names=lambda: ("triangle", "zigzag"))
+    controller.session.authoring = SimpleNamespace(library=library)
+    for argument in ("triangle", "list"):
+        commands.BY_NAME["program"].act(controller, argument)
+    assert "“triangle” is kept already: “run the triangle” runs it." in shown(log)
+    assert "Kept programs: triangle, zigzag." in shown(log)
+    assert not told(log)
 
 
 @pytest.mark.parametrize(("typed", "word"), [("/stop it now", "stop"), ("/estop now", "emergency_stop")])

@@ -5,8 +5,9 @@ import re
 import pytest
 from rich.console import Console
 
+from chatrobot.cli.console.commands import COMMANDS
 from chatrobot.cli.console.lines import shown
-from chatrobot.cli.console.tables import place_in, places_table
+from chatrobot.cli.console.tables import help_table, place_in, places_table, robot_tables
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.narrator import PLAN_LINES, Narrator
 from chatrobot.core.events import (
@@ -99,6 +100,19 @@ def test_wrapped_lines_hang_under_their_first_and_end_without_blanks():
 
 def test_markup_in_what_a_person_says_is_just_text():
     assert "[red]x[/red]" in told(Narrator(Words()), Result(1, "unclear", "[red]x[/red]"))
+
+
+def test_a_narrow_terminal_tells_all_that_a_wide_one_does():
+    commands = [(command.typed, command.help_code) for command in COMMANDS]
+    tables = [
+        help_table(Words(), HOME, commands),
+        *robot_tables(Words(), load_profile("turtlebot4")),
+        places_table(Words(), HOME, {}),
+    ]
+    narrow = printed(*tables, width=42)
+    told = set(printed(*tables, width=200).split()) - {"place", "where", "also", "called", "limit", "source"}
+    assert told <= set(narrow.split())
+    assert max(map(len, narrow.splitlines())) <= 42
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

@@ -10,6 +10,7 @@ from chatrobot.cli.lesson.trial import Trial, trials
 from chatrobot.compose import Setup
 from chatrobot.core.errors import LessonError
 from chatrobot.dialogue.options import Options
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.lessons.sheet import Sheet, lesson_names, load_sheet, parse_sheet
 
 
@@ -20,7 +21,7 @@ def setup_of(sheet: Sheet) -> Setup:
     )
 
 
-def test_there_are_five_lessons_in_their_order_in_both_languages() -> None:
+def test_there_are_five_lessons_in_their_order_in_all_languages() -> None:
     assert lesson_names() == [
         "first-moves", "turns-and-shapes", "places-and-obstacles", "conditions-and-repetition", "first-program",
     ]  # fmt: skip
@@ -30,28 +31,31 @@ def test_there_are_five_lessons_in_their_order_in_both_languages() -> None:
             sheet.title,
             *(text for task in sheet.tasks for text in (task.title, task.task, task.hint)),
         ]
-        assert all(saying is not None and set(saying.by_language) == {"en", "zh"} for saying in sayings)
-        assert all(set(task.solution) == set(task.mistake) == {"en", "zh"} for task in sheet.tasks)
+        assert all(
+            saying is not None and set(saying.by_language) == set(REPLY_LANGUAGES) for saying in sayings
+        )
+        assert all(set(task.solution) == set(task.mistake) == set(REPLY_LANGUAGES) for task in sheet.tasks)
 
 
 @pytest.mark.parametrize("name", lesson_names())
 def test_solutions_pass_and_mistakes_are_told_in_the_language_they_are_made_in(name: str) -> None:
-    """Every solution in both languages; the mistakes in turn in English and Chinese."""
+    """Every solution in all languages; the mistakes in turn in one of them."""
     sheet = load_sheet(name)
 
     def is_tried(number: int, kind: str, language: str) -> bool:
         texts = sheet.tasks[number - 1].mistake
-        is_its_turn = language == ("en", "zh")[number % 2] or texts["en"] == texts["zh"]
+        is_its_turn = language == REPLY_LANGUAGES[(number + 1) % 3] or texts["en"] == texts["zh"]
         return kind == "solution" or is_its_turn
 
     tried: list[Trial] = list(trials(sheet, setup_of(sheet), is_tried))
     assert [trial.sentence for trial in tried if not trial.is_right] == []
     told = [trial for trial in tried if trial.kind == "mistake"]
-    assert {trial.language for trial in told} == {"en", "zh"}
+    assert {trial.language for trial in told} == set(REPLY_LANGUAGES)
     for trial in told:
-        assert trial.sentence.startswith(("Not yet: ", "Not this time: ", "还没有完成：", "这次不行："))
+        assert trial.sentence.startswith(NOT_PASSED)
 
 
+NOT_PASSED = ("Not yet: ", "Not this time: ", "还没有完成：", "这次不行：", "Noch nicht: ", "Diesmal nicht: ")
 RIGHT = """\
 title: one
 world: home
@@ -81,7 +85,7 @@ tasks:
         ("ends_at: kitchen", "heading_deg: {within: 5}", 6, "heading_deg: is is missing"),
         ("{ends_at: kitchen}", "{}", 6, "check: is empty (one or more of ends_at, passes"),
         ("task: b", "task: {en: come here, please}", 5, "a text with a comma or a colon goes in quotation marks"),
-        ("title: a", "title: {de: a}", 4, "unknown field (by language: en, zh"),
+        ("title: a", "title: {fr: a}", 4, "unknown field (by language: en, zh, de"),
         ("    solution: go to the kitchen\n", "    solution: []\n", 7, "solution: is empty (a text or a list"),
         ("    task: b", "    begins_at: Mars\n    task: b", 5, "the world home has no place 'Mars'"),
         ("    task: b", "\ttask: b", 5, "is not YAML"),

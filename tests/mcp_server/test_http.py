@@ -213,11 +213,13 @@ def test_programs_are_written_rehearsed_kept_and_run(served: Served) -> None:
                 "programs", action="write", name="broken", text=source.replace("0.5", "1/0")
             )
             assert "ZeroDivisionError" in text_of(broken)
+            words = await agent.call("programs", action="write", name="hop", text="forward 20 cm")
+            assert text_of(words).startswith("Kept as “hop”. completed: ")
             listed = await agent.data("programs")
-            assert [each["name"] for each in listed["programs"]] == ["broken", "spin"]
+            assert [each["name"] for each in listed["programs"]] == ["broken", "hop", "spin"]
             missing = await agent.call("programs", action="run", name="waltz")
             assert missing.is_error
-            assert "broken, spin" in text_of(missing)
+            assert "broken, hop, spin" in text_of(missing)
 
     anyio.run(task)
 

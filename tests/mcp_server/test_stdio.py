@@ -39,6 +39,9 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
             assert rehearsed["rehearsed"]["length_m"] == pytest.approx(0.4, abs=0.01)
             assert not agent.wire.velocities.all or not any(any(t) for _, t in agent.wire.velocities.all)
 
+            shown = text_of(await agent.call("rehearse", text="forward 40 cm, then left"))
+            assert "Plan: drive 0.4 m; turn left 90 deg" in shown, "many models see no more than this"
+
             done = await agent.data("instruct", plan="drive 0.4 m\nturn left 90 deg")
             assert done["outcome"] == "completed"
             assert done["path_m"] == pytest.approx(0.4, abs=0.02)
@@ -63,10 +66,10 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
 
     anyio.run(task)
     recording = read(path)
-    plan = "drive 0.4 m\nturn left 90 deg"  # rehearsed, then driven
-    assert [text for _, text in recording.words] == [plan, plan, "前进三米", "back 20 cm"]
+    plan, in_words = "drive 0.4 m\nturn left 90 deg", "forward 40 cm, then left"  # rehearsed, then driven
+    assert [text for _, text in recording.words] == [plan, in_words, plan, "前进三米", "back 20 cm"]
     ended = [event["outcome"] for _, event in recording.events if event["event"] == "result"]
-    assert ended == ["completed", "completed", "stopped", "completed"]
+    assert ended == ["completed", "completed", "completed", "stopped", "completed"]
     assert max(odometry.x_m for _, odometry in recording.odometry) == pytest.approx(0.4, abs=0.03)
 
 

@@ -39,6 +39,7 @@ class RunningWeb(RunningRobot):
     def dial(self, path: str, port: int) -> Client:
         headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
         how: dict[str, Any] = {"additional_headers": headers, "proxy": None, "max_size": 2**22}
+        how["max_queue"] = None  # a page reads what comes, whatever the test waits for
         how["close_timeout"] = 0.5
         address, origin = f"ws://127.0.0.1:{port}{path}", f"http://127.0.0.1:{self.port}"
         return Client(self._opened.enter_context(connect(address, origin=origin, **how)))

@@ -158,6 +158,15 @@ def test_the_running_step_is_marked(page: Page, rig: WebRig) -> None:
     expect(marked).to_have_text(["repeat 2", "  turn left 90 deg", "end"], use_inner_text=True)
 
 
+def test_a_plan_is_shown_rounded_and_edited_as_it_is(page: Page, rig: WebRig) -> None:
+    say(page, rig, "go to the lab")
+    exact = 'go to 4.3 1.5000000000000002 named "lab 1.23456"'
+    rig.tell(Interpreted(1, "offline", exact, "go to lab"))
+    expect(page.locator("#plan-lines")).to_have_text('go to 4.3 1.5 named "lab 1.23456"')
+    page.locator("#plan-edit").click()
+    expect(page.get_by_label("The plan, one step a line")).to_have_value(exact)
+
+
 def test_gauges_say_how_fast_how_near_and_what_is_limited(page: Page, rig: WebRig) -> None:
     rig.tell(Telemetry(0, ORIGIN, Twist(0.25, 0.0, 0.5), 1.0, battery_percent=63.0, nearest_obstacle_m=0.42))
     now = page.get_by_role("region", name="Now")

@@ -11,7 +11,7 @@ import pytest
 from chatrobot.core.events import Finished, Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.link.motion_link import TURNS
-from chatrobot.web.steering import FIRST_BEAT_S, Steering
+from chatrobot.web.steering import FIRST_BEAT_S, Steering, Watchdog
 from tests.web.rig import PATIENCE_S, NotingSession, WebRig, wait_until
 
 FORWARD = Twist(0.2)
@@ -210,6 +210,26 @@ def test_a_page_that_leaves_lets_go_and_ends_what_it_said(steered: Rig) -> None:
     assert not steered.steering.stick(page, FORWARD)
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_watchdog_that_breaks_stops_all_that_pages_said_and_lets_none_say_more() -> None:
+    broken, other = Rig(), Rig()
+    page = other.take_with_a_plan()
+
+    def fail() -> None:
+        raise ValueError("an error of ours")
+
+    broken.steering = Steering(broken.robot, lambda: True, fail, lambda: broken.now_s)
+    broken.steering.take(Page())
+    broken.now_s += FIRST_BEAT_S + 1.0  # its page is silent
+    watchdog = Watchdog(lambda: [broken.steering, other.steering])
+    watchdog.start()
+    wait_until(lambda: ("stop", "the web console broke") in other.robot.log)
+    watchdog.stop()
+    assert GONE in broken.robot.log
+    other.steering.beat(page)
+    assert not other.steering.is_alive, "nobody would notice that it is gone"
+
+
 def test_closing_the_steering_page_ends_its_plan(rig: WebRig) -> None:
     page, watcher = rig.page(), rig.page()
     page.say("say", text="forward 1 m")
@@ -254,6 +274,20 @@ def test_a_page_that_beats_no_more_ends_its_plan_though_its_connection_stays(rig
     page.say("say", text="forward 1 m")
     page.wait_for("said")
     page.wait_for("said")
+
+
+def test_that_the_steering_page_is_gone_is_told_once_whoever_leaves_after_it(rig: WebRig) -> None:
+    """Pages that try anew while the server stands still all come, and are gone, at once."""
+    first = rig.page()
+    first.hold()
+    first.say("say", text="forward 1 m")
+    first.wait_for("said")
+    first.socket.close()
+    for _ in range(2):
+        wait_until(lambda: rig.room.steering.steerer is None)
+        rig.page().socket.close()
+    wait_until(lambda: rig.session.log.count(GONE) == 3)
+    assert [told["is"] for told in rig.page().heard[0]["history"]] == ["said", "lost"]
 
 
 def test_a_page_that_never_beats_is_told_that_nothing_is_done(rig: WebRig) -> None:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 
 from chatrobot import __version__
-from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of
+from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of, all_known
 from chatrobot.cli.options import Parser, add_defaults, add_options, joined, port, positive
 from chatrobot.cli.options import argument as _add
 from chatrobot.core.errors import UsageError
@@ -95,8 +95,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
             f"there is no command {word!r}",
             allowed=f'commands: {", ".join(COMMANDS)}; to tell the robot something: chatrobot do "{word} …"',
         )
-    parsed = commands_parser().parse_args(list(arguments))
-    parsed.command = parsed.command or ""
+    parsed = all_known(*commands_parser().parse_known_args(list(arguments)))
     parsed.program_args, parsed.ros_args = program_args, ros_args
     _check_texts(parsed)
     _check_ros_args(parsed)

@@ -197,7 +197,9 @@ def _model(args: argparse.Namespace) -> Check:
     except ChatRobotError as error:
         return Check("language model", "missing", str(error))
     if choice is None:
-        text = "none is set up (chatrobot model does it); English and Chinese are understood without one"
+        text = (
+            "none is set up (chatrobot model does it); English, Chinese and German are understood without one"
+        )
         return Check("language model", "later", text)
     problem = problem_with(choice.name, config)
     if problem is not None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from chatrobot.cli.options import add_options, offer
+from chatrobot.core.errors import UsageError
 
 Actions = dict[str, tuple[str, dict[str, str]]]
 """The name of each action, what it does, and its arguments; one in brackets may be left out."""
@@ -42,7 +43,7 @@ def actions_of(
 ) -> Iterator[tuple[str, argparse.ArgumentParser]]:
     """Add the actions of a command; what is added to one comes before its options."""
     added = parser.add_subparsers(
-        dest="action", metavar="ACTION", required=True, title="actions", prog=f"chatrobot {command}"
+        dest="action", metavar="ACTION", required=False, title="actions", prog=f"chatrobot {command}"
     )
     for name, (text, takes) in family.items():
         action = added.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
@@ -54,3 +55,25 @@ def actions_of(
             offer(action.add_argument(dest, metavar=shown, help=meaning, **how), offers)
         yield name, action
         add_options(action, f"{command} {name}")
+
+
+_FAMILIES = {"world": WORLD_ACTIONS, "program": PROGRAM_ACTIONS}
+
+
+def all_known(parsed: argparse.Namespace, unknown: Sequence[str]) -> argparse.Namespace:
+    """Return what was read, with a command ("" for none), where nothing is left over and no action is missing.
+
+    Raises:
+        UsageError: with the help that tells more, or the actions.
+    """
+    parsed.command = parsed.command or ""
+    said = " ".join(filter(None, ("chatrobot", parsed.command, getattr(parsed, "action", ""))))
+    if unknown:
+        from chatrobot.models.secret import scrub  # a key may have been typed where none belongs
+
+        is_file = getattr(parsed, "record", None) == "" and unknown[0][:1] != "-"
+        allowed = "--record FILE.mcap" if is_file else f"see {said} --help"
+        raise UsageError(f"'{said}' does not take {scrub(' '.join(unknown), None)}", allowed=allowed)
+    if parsed.command in _FAMILIES and not parsed.action:
+        raise UsageError(f"'{said}' needs an action", allowed=", ".join(_FAMILIES[parsed.command]))
+    return parsed

@@ -24,6 +24,7 @@ from chatrobot.compose import Connection, Setup
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, Notice, TruePose
 from chatrobot.dialogue.pump import Pump
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
 from chatrobot.sim.robot import TRUTH_TOPIC
@@ -120,6 +121,7 @@ def _serve(
         problems.append(error)
 
     agents: AgentHost | None = None
+    connection.session.understanding.warm(*REPLY_LANGUAGES)  # a page's first sentence is in any of them
     pump = Pump(connection.session, lose)
     room.open(connection, pump.post, is_simulated=setup.on in SIMULATED)
     if lesson is not None:
@@ -130,8 +132,7 @@ def _serve(
             tell()
             pump.start()
             agents = _host_agents(connection, server.access, setup, room)
-            while not (watch.is_leaving or problems):
-                time.sleep(0.1)
+            _wait_for_end(watch, problems)
             server.close()
     finally:
         if agents is not None:
@@ -143,6 +144,11 @@ def _serve(
     if problems:
         raise problems[0]
     return STOPPED
+
+
+def _wait_for_end(watch: SignalWatch, problems: list[Exception]) -> None:
+    while not (watch.is_leaving or problems):
+        time.sleep(0.1)
 
 
 def _hear(room: Room, lesson: RoomLesson | None, event: Event) -> None:
@@ -169,14 +175,14 @@ def _serve_class(
     def lose(error: Exception) -> None:
         problems.append(error)
 
+    robots[0].connection.session.understanding.warm(*REPLY_LANGUAGES)
     is_heard = classroom.sheet is not None or classroom.recordings is not None
     classroom.open(robots, lose, RobotWires(robots, TRUTH_TOPIC) if is_heard else None)
     try:
         with SignalWatch(classroom.stop) as watch:
             server.start(*sockets)
             tell()
-            while not (watch.is_leaving or problems):
-                time.sleep(0.1)
+            _wait_for_end(watch, problems)
             server.close()
     finally:
         classroom.close()

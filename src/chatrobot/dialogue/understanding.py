@@ -41,6 +41,7 @@ REMEMBERED_TURNS = 50
 """Older turns are forgotten: nobody says "again" about what was fifty instructions ago."""
 
 UNHEARD = "answer_unheard"
+_FIRST_TEXTS = {"en": "forward 1 m", "zh": "前进一米", "de": "einen Meter vor"}
 
 
 class Understanding:
@@ -88,10 +89,10 @@ class Understanding:
         """Return the places a person has named, as far as their coordinates still hold."""
         return {name: place.pose for name, place in self.places.all().items() if place.usable}
 
-    def warm(self) -> None:
+    def warm(self, *languages: str) -> None:
         """Load the words now, while somebody waits for something else anyway: the first sentence is then quick."""
-        for text in ("forward 1 m", "前进一米"):
-            self._interpreter.interpret(text, Context())
+        for language in languages or ("en", "zh"):
+            self._interpreter.interpret(_FIRST_TEXTS[language], Context())
 
     def interpret(self, text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
         """Return what `text` means now. Instructions that are under way are read as turns before."""

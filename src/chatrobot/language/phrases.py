@@ -120,7 +120,8 @@ def _stop_cause(source: str, why: str, language: str) -> str:
     name, is_ours = causes["sources"].get(source, source), source in _OURS
     if why in causes["stops"]:
         cause = str(causes["stops"][why])
-        return cause if is_ours else say(language, "stopped_at", source=name, cause=cause)
+        tells_who = is_ours or source == "agent"  # its causes name it
+        return cause if tells_who else say(language, "stopped_at", source=name, cause=cause)
     if not why:
         return say(language, "stopped_by" if source else "stopped", source=name)
     return say(language, "stopped_said" if is_ours else "stopped_said_by", source=name, why=why)

@@ -15,6 +15,7 @@ from typing import Any, Literal, Protocol
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed, number
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.normalise import has_chinese
 from chatrobot.lessons.attempt import Figures, Values
 from chatrobot.plan.text import parse_plan
@@ -202,10 +203,9 @@ class Forbidden:
 
     def judge(self, figures: Figures) -> Finding:
         """Name the word that was used."""
-        for text in figures.texts:
-            for word in self.words:
-                if _uses(text, word):
-                    return Finding("forbidden", "broken", "forbidden_used", {"word": word}, is_limit=True)
+        used = [word for text in figures.texts for word in self.words if _uses(text, word)]
+        if used:
+            return Finding("forbidden", "broken", "forbidden_used", {"word": used[0]}, is_limit=True)
         return Finding("forbidden", "done", "forbidden_done", {}, is_limit=True)
 
 
@@ -302,7 +302,7 @@ def _heading(given: Field, _: World) -> Check:
 
 def _words(given: Field) -> tuple[str, ...]:
     if given.is_mapping:
-        return tuple(word for each in given.mapping("en", "zh").values() for word in _words(each))
+        return tuple(word for each in given.mapping(*REPLY_LANGUAGES).values() for word in _words(each))
     return tuple(item.text() for item in given.filled())
 
 

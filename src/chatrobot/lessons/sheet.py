@@ -9,7 +9,7 @@ from pathlib import Path
 
 from chatrobot.core.errors import LessonError, WorldError
 from chatrobot.core.geometry import Pose
-from chatrobot.language.data_files import LANGUAGES
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.lessons.checks import CHECKS, START, Check, read_place
 from chatrobot.options import DEFAULT_ROBOT
 from chatrobot.sim.fields import Field, compose, read_text
@@ -132,20 +132,18 @@ def _world(named: Field, folder: Path) -> tuple[str, World]:
 
 def _by_language(given: Field) -> dict[str, Field]:
     try:
-        fields = given.mapping(*LANGUAGES)
+        fields = given.mapping(*REPLY_LANGUAGES)
     except LessonError as error:
-        allowed = (
-            f"by language: {', '.join(LANGUAGES)}; a text with a comma or a colon goes in quotation marks"
-        )
+        allowed = f"by language: {', '.join(REPLY_LANGUAGES)}; a text with a comma or a colon goes in quotation marks"
         raise LessonError(error.problem, where=error.where, allowed=allowed) from error
     if not fields:
-        raise given.error("is empty", f"by language: {', '.join(LANGUAGES)}")
+        raise given.error("is empty", f"by language: {', '.join(REPLY_LANGUAGES)}")
     return fields
 
 
 def _saying(given: Field) -> Saying:
     if not given.is_mapping:
-        return Saying({LANGUAGES[0]: given.lines()})
+        return Saying({REPLY_LANGUAGES[0]: given.lines()})
     fields = _by_language(given)
     return Saying({language: text.lines() for language, text in fields.items()})
 
@@ -174,7 +172,7 @@ def _task(item: Field, world: World) -> Task:
 def _lines(given: Field) -> Lines:
     """Read what is typed: a text or a list of texts, for all languages or by language."""
     if not given.is_mapping:
-        return dict.fromkeys(LANGUAGES, _texts(given))
+        return dict.fromkeys(REPLY_LANGUAGES, _texts(given))
     return {language: _texts(texts) for language, texts in _by_language(given).items()}
 
 

@@ -65,9 +65,11 @@ class ProgramTool:
                     "characters are read.",
                     "bad_arguments",
                 )
-            return await self._see_through(
+            told = await self._see_through(
                 lambda session: session.say_program(text, name), report, line, rehearse_only=True
             )
+            written = (told.structured_content or {}).get("program")
+            return _with_name(told, written["name"]) if written else told
         if len(text) > MAX_CODE_CHARS:
             return error(f"The program is longer than {MAX_CODE_CHARS} characters.", "too_long")
         kept = _keep(authoring, name, text)

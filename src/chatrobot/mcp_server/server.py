@@ -36,7 +36,7 @@ end
 
 _DESCRIPTIONS = {
     "instruct": """\
-Move the robot: say what to do in plain English or Chinese (`text`), or give exact steps (`plan`, one a line:
+Move the robot: say what to do in plain English, Chinese or German (`text`), or give exact steps (`plan`, one a line:
 `drive 1 m`, `turn left 90 deg`, `go to 2 0.5`; prompt plan_language has all). Rehearsed first, kept within limits;
 returns once it has ended, with what was measured. Questions ("where are you?"), "undo", "continue", and "yes" to a
 question work, too. Cancel the call to stop. Send ways of over a minute in parts: clients give up.""",

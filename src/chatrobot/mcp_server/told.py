@@ -18,6 +18,7 @@ from chatrobot.language.phrases import render_reason
 from chatrobot.link.motion_link import LAPSES_AFTER_S
 from chatrobot.mcp_server.calls import Course
 from chatrobot.mcp_server.robot import SOURCE
+from chatrobot.plan.shown import shown_plan
 
 _PERSON_STOPPED = (
     "A person stopped the robot, and that has priority. Do not move it again unless the person asks you to."
@@ -40,7 +41,7 @@ _HINTS: Mapping[str, str] = {
     "approval_too_late": "Nobody said yes in time. Ask the person before you try again.",
 }
 """What to do about the reason of an end."""
-MOST_LOG, MOST_FAULT_CHARS = 20, 1500
+MOST_LOG, MOST_FAULT_CHARS, MOST_SHOWN_CHARS = 20, 1500, 300
 NO_PERSON = (
     "This robot moves only after a person's yes, and there is nobody to ask here. Ask the person to run "
     "`chatrobot web` with this robot and let this server attach to it, or to start this server with --yes."
@@ -167,11 +168,24 @@ def _end_told(course: Course, result: Result, data: dict[str, Any], language: st
         data["hint"] = " ".join(hints)
     lines = [
         f"{outcome}: {result.reply}",
+        *_plan_lines(course),
         *_measured_lines(course, result, language),
         *_faults(course),
         *hints,
     ]
     return answer("\n".join(filter(None, lines)), data, is_error=outcome == "failed")
+
+
+def _plan_lines(course: Course) -> list[str]:
+    """Return in one line how words were understood: many clients show their model the text alone."""
+    if course.is_plan or course.interpreted is None or not course.interpreted.plan_text:
+        return []
+    steps = (line.strip() for line in shown_plan(course.interpreted.plan_text).splitlines())
+    return [_shortened(f"Plan: {'; '.join(steps)}", MOST_SHOWN_CHARS)]
+
+
+def _shortened(text: str, limit_chars: int) -> str:
+    return text if len(text) <= limit_chars else f"{text[: limit_chars - 1]}…"
 
 
 def _measured_lines(course: Course, result: Result, language: str) -> list[str]:

@@ -26,6 +26,7 @@ from chatrobot.web.programs import AskedPlans, Post, Programs
 from chatrobot.web.steering import NOBODY, Steering
 from chatrobot.web.words import PASSING, UNTOLD, event_message, noted, refused, told, web_words
 
+_LOST = Message(lambda language: {"is": "lost", "text": web_words(language, "steerer_lost")})
 HISTORY = 200
 """Messages that a page is told which comes later."""
 
@@ -157,10 +158,10 @@ class Room:
 
     def _tell_lost(self) -> None:
         with self._lock:
-            self._tell(
-                Message(lambda language: {"is": "lost", "text": web_words(language, "steerer_lost")}),
-                is_kept=True,
-            )
+            if (
+                not self._history or self._history[-1] is not _LOST
+            ):  # pages that tried in vain come all at once
+                self._tell(_LOST, is_kept=True)
 
     # --- who is here ---
 

@@ -25,6 +25,7 @@ FIRST_BEAT_S = 1.0
 UNREAD_S = 0.5
 """What lies unread of a page, while the event loop is late, shows for so long that the page is there."""
 NOBODY = "nobody steers any more"
+UNWATCHED = "the web console broke"
 LOOK_S, STALL_S = 0.02, 0.05
 """How often the watchdog looks; and from when on it was itself kept waiting, so that beats may lie unread."""
 
@@ -78,6 +79,7 @@ class Steering:
         self._beat_s = self._unread_s = 0.0
         self._unread_bytes = 0
         self._is_held = self._was_lost = False
+        self._is_watched = True
 
     @property
     def steerer(self) -> Steerer | None:
@@ -87,7 +89,9 @@ class Steering:
     @property
     def is_alive(self) -> bool:
         """Tell whether beats of the steering page come: without them nothing that it says would go on."""
-        return self._now() <= max(self._beat_s, self._unread_s) + self._most_s(LOST_S, LOST_AFAR_S)
+        return self._is_watched and self._now() <= max(self._beat_s, self._unread_s) + self._most_s(
+            LOST_S, LOST_AFAR_S
+        )
 
     def take(self, page: Steerer | None, why: str = NOBODY) -> None:
         """Have `page` steer, or nobody: the stick is let go, and what was said goes on under the new one, or ends.
@@ -137,6 +141,12 @@ class Steering:
             self._was_lost = True
             self._lose()
 
+    def end_watch(self) -> None:
+        """Stop what a page said, and have none say more: nobody would notice that it is gone."""
+        self._is_watched = False
+        if self._has_work():
+            self._robot.stop(UNWATCHED)
+
     def _note_unread(self) -> None:
         """Take what comes while more lies unread for a sign of life: the event loop is late, not the page."""
         steerer, now_s = self._steerer, self._now()
@@ -172,6 +182,13 @@ class Watchdog:
         self._thread.join()
 
     def _run(self) -> None:
+        try:
+            self._watch()
+        finally:  # an error of ours ends no more than what pages say
+            if not self._is_stopped.is_set():
+                self._for_each(Steering.end_watch)
+
+    def _watch(self) -> None:
         wake_promptly()
         looked_s, has_waited = time.monotonic(), False
         while not self._is_stopped.wait(LOOK_S):
@@ -180,6 +197,9 @@ class Watchdog:
             has_waited = not has_waited and looked_s - before_s > LOOK_S + STALL_S
             if has_waited:
                 continue
-            for robot in tuple(self._robots()):
-                with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
-                    robot.look()
+            self._for_each(Steering.look)
+
+    def _for_each(self, act: Callable[[Steering], None]) -> None:
+        for robot in tuple(self._robots()):
+            with contextlib.suppress(LinkError):  # Motion is gone, and its guard halts the robot
+                act(robot)

@@ -15,8 +15,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO, cast
 
-from prompt_toolkit import PromptSession
+from prompt_toolkit import PromptSession, search
 from prompt_toolkit.application import run_in_terminal
+from prompt_toolkit.application.current import set_app
 from prompt_toolkit.buffer import Buffer
 from prompt_toolkit.document import Document
 from prompt_toolkit.filters import Condition
@@ -32,6 +33,7 @@ from chatrobot.cli.console.completion import ChatCompleter
 from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.pasted import LONGEST_CHARS, clean
 from chatrobot.cli.console.status_bar import STYLES
+from chatrobot.reflex import is_stop
 
 BUNDLE_S = 0.02
 """Output that comes within this time is written at once, so that the prompt is not repainted line by line."""
@@ -193,11 +195,21 @@ class Chat:
     def _enter(self, event: KeyPressEvent) -> None:
         """Keep lines together that come at once: some terminals do not tell a paste from typing."""
         buffer = event.current_buffer
-        if any(_is_text(key.key) for key in event.key_processor.input_queue):
+        if event.app.layout.is_searching:
+            self._accept_search(buffer.text)
+        elif any(_is_text(key.key) for key in event.key_processor.input_queue):
             self._stop_for_paste(f"{buffer.document.current_line}\n")
             buffer.insert_text("\n")
         else:
             buffer.validate_and_handle()
+
+    def _accept_search(self, typed: str) -> None:
+        """Put what Ctrl-R found into the line; a stop that was typed while it searched is none to look for."""
+        if is_stop(typed):
+            search.stop_search()
+            self._controller.enter(typed)
+        else:
+            search.accept_search()
 
     def _message(self) -> FormattedText:
         return FormattedText([("class:prompt", "plan› " if self._is_editing else "› ")])
@@ -231,6 +243,8 @@ class Chat:
     def _interrupt(self) -> None:
         self._controller.interrupt()
         self._is_editing = False
+        with set_app(self._prompt.app):  # a signal comes from outside of it
+            search.stop_search()
         self._prompt.default_buffer.reset()
 
     def _suspend(self) -> None:

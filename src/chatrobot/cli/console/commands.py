@@ -63,7 +63,7 @@ def run(controller: ChatController, line: str) -> None:
 
 def nearest(word: str, known: Iterable[str] = ()) -> str:
     """Return the command that was most likely meant; empty where none is near."""
-    near = difflib.get_close_matches(word.casefold(), known or BY_NAME, n=1, cutoff=0.5)
+    near = difflib.get_close_matches(word.casefold(), known or BY_NAME, n=1, cutoff=0.6)
     return near[0] if near else ""
 
 
@@ -131,10 +131,13 @@ def _run_plan(controller: ChatController, argument: str) -> None:
 
 def _program(controller: ChatController, argument: str) -> None:
     """Ask for a new program; without words list those that are kept."""
-    if argument:
+    names = controller.session.authoring.library.names() if controller.session.authoring is not None else ()
+    if argument in names:
+        controller.tell("program_is_kept", name=argument)
+        return
+    if argument and argument.casefold() != "list":  # as `chatrobot program list`
         controller.attempt(lambda: controller.session.say_program(argument))
         return
-    names = controller.session.authoring.library.names() if controller.session.authoring is not None else ()
     controller.tell("programs_kept", names=", ".join(names)) if names else controller.tell("no_programs_kept")
 
 
@@ -153,6 +156,12 @@ def _map(controller: ChatController, argument: str) -> None:
 
 def _big_map(controller: ChatController) -> RenderableType:
     return tables.big_map(controller.motion_view, controller.connection.world, controller.display.width)
+
+
+def _stop(controller: ChatController, _: str) -> None:
+    controller.stop("/stop")
+    if controller.session.is_idle:  # otherwise what is under way says how it ended
+        controller.tell("stop_sent")
 
 
 def _estop(controller: ChatController, _: str) -> None:
@@ -209,7 +218,7 @@ COMMANDS = (
     Command("map", _map, takes="[big]"),
     Command("limit", _limit, takes="[200 m] [20 min] [none]"),
     Command("obstacle", _obstacle, takes="[add NAME X Y | remove NAME]"),
-    Command("stop", lambda it, _: it.stop("/stop"), at_once=True, heeds_the_rest=False),
+    Command("stop", _stop, at_once=True, heeds_the_rest=False),
     Command("estop", _estop, at_once=True, heeds_the_rest=False),
     Command("release", lambda it, _: it.release(), at_once=True),  # Motion says whether it is
     Command("quit", lambda it, _: it.leave(), at_once=True),

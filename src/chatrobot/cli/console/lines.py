@@ -11,11 +11,15 @@ from typing import Protocol
 
 from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderableType, RenderResult
+from rich.padding import Padding
+from rich.table import Table
 from rich.text import Text
 
 from chatrobot.cli.narrator import PLAN_STYLE, Line
 
 INDENT = 2
+LEAST_TABLE_WIDTH = 72
+"""Columns below which a table leaves its last column no room."""
 _CLOSING = frozenset("，。、；：！？）》”’…,.;:!?)")
 _OPENING = frozenset("（《“‘(")
 _VERB = re.compile(r"^ *(?:\d+ × \(?)*([a-z_]+)")
@@ -34,6 +38,36 @@ class _Hanging:
         for line in wrapped(self.text, max(8, options.max_width - indent)):
             yield Text.assemble(prefix, line)
             prefix = Text(" " * indent)
+
+
+class Rows:
+    """Rows as a table; where that would be too narrow to read, each as a line with the rest of it below."""
+
+    def __init__(self, *heads: str) -> None:
+        self._heads = heads
+        self._rows: list[tuple[Text, ...]] = []
+
+    def add(self, *cells: str | Text) -> None:
+        """Add a row; the first cell names it."""
+        self._rows.append(tuple(Text(cell) if isinstance(cell, str) else cell for cell in cells))
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        if options.max_width >= LEAST_TABLE_WIDTH:
+            yield self._table()
+            return
+        for name, *rest in self._rows:
+            yield name
+            yield Padding(Text(" · ").join(cell for cell in rest if cell.plain), (0, 0, 0, INDENT))
+
+    def _table(self) -> Table:
+        heads = self._heads
+        table = Table(box=None, show_header=bool(heads), pad_edge=False, padding=(0, 2), header_style="dim")
+        table.add_column(heads[0] if heads else "", no_wrap=True)
+        for head in heads[1:] or ("",):
+            table.add_column(head, overflow="fold")
+        for row in self._rows:
+            table.add_row(*row)
+        return table
 
 
 def indented(text: Text) -> RenderableType:

@@ -8,10 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from rich.console import Group, RenderableType
 from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
-from chatrobot.cli.console.lines import INDENT, indented
+from chatrobot.cli.console.lines import INDENT, Rows, indented
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.drawing.extent import Extent, Orientation, extent_around, extent_of_world
@@ -44,9 +43,9 @@ def help_table(words: Words, world: World, commands: Sequence[tuple[str, str]]) 
         Text("    ").append(part.strip(), "cyan")
         for part in words.say("help_examples", place=place).split("|")
     ]
-    table = _table()
+    table = Rows()
     for typed, help_code in commands:
-        table.add_row(Text(typed, "bold"), words.say(help_code))
+        table.add(Text(typed, "bold"), words.say(help_code))
     return Group(
         indented(Text(words.say("help_talk"))),
         *examples,
@@ -77,15 +76,13 @@ def robot_tables(words: Words, profile: RobotProfile) -> Iterator[RenderableType
         turn=f"{math.degrees(profile.defaults.turn_rad):.0f}",
     )
     yield indented(Text(f"{footprint}\n{defaults}"))
-    table = _table(words.say("robot_limit"), "", words.say("robot_source"))
+    table = Rows(words.say("robot_limit"), "", words.say("robot_source"))
     for field in dataclasses.fields(profile.limits):
         number = getattr(profile.limits, field.name)
         if field.name not in profile.sources:
             continue
         value = f"{number:g} {_UNITS[field.name.rpartition('_')[2]]}"
-        table.add_row(
-            words.say(f"limit_{field.name}"), value, Text(profile.sources.get(field.name, ""), "dim")
-        )
+        table.add(words.say(f"limit_{field.name}"), value, Text(profile.sources.get(field.name, ""), "dim"))
     yield Padding(table, (1, 0, 0, INDENT))
 
 
@@ -93,26 +90,16 @@ def places_table(words: Words, world: World, remembered: Mapping[str, Place]) ->
     """List places, the person's own first, then the world's."""
     if not world.places and not remembered:
         return indented(Text(words.say("no_places"), "dim"))
-    table = _table(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
+    table = Rows(words.say("place_name"), words.say("place_pose"), words.say("place_also"))
     for name, place in remembered.items():
         note = words.say("place_yours" if place.usable else "place_old")
-        table.add_row(
-            Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim")
-        )
+        table.add(Text(name, "bold" if place.usable else "dim"), words.pose(place.pose), Text(note, "dim"))
     own = {name for name, place in remembered.items() if place.usable}
     for main, pose in world.places.items():
         name, *others = by_language(world.names_of(main), words.language)
         if main not in own:
-            table.add_row(name, words.pose(pose), Text(", ".join(others), "dim"))
+            table.add(name, words.pose(pose), Text(", ".join(others), "dim"))
     return Padding(table, (0, 0, 0, INDENT))
-
-
-def _table(*heads: str) -> Table:
-    table = Table(box=None, show_header=bool(heads), pad_edge=False, padding=(0, 2), header_style="dim")
-    table.add_column(heads[0] if heads else "", no_wrap=True)
-    for head in heads[1:] or ("",):
-        table.add_column(head, overflow="fold")
-    return table
 
 
 COLOURS = {

@@ -180,8 +180,8 @@ function forgetRehearsal(entry) {
   for (const item of entry.found.querySelectorAll(".rehearsal")) item.remove();
 }
 
-function noteLine(text) {
-  change(() => list.append(make("li", "line", text)));
+function noteLine(text, kind = "line") {
+  change(() => list.append(make("li", kind, text)));
 }
 
 /** A keyboard that comes up on a phone, or a phone that is turned, does not hide the newest. */
@@ -222,5 +222,5 @@ export function startChat() {
     if (!state.isReplaying) speak(message.text, language());
   });
   keepEndInSight();
-  on("task", (message) => noteLine(`${message.title}: ${message.text}`));
+  on("task", (message) => noteLine(`${message.title}: ${message.text}`, "task"));
 }

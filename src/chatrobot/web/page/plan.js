@@ -10,6 +10,13 @@ const about = byId("plan-about");
 
 const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false };
 
+const NUMBER_OR_QUOTED = /"(?:[^"\\]|\\.)*"|-?\d+\.\d{4,}(?:e[-+]?\d+)?/g;
+
+/** A line with numbers to three decimals; what runs or is edited is the exact text, never this. */
+function shown(line) {
+  return line.replace(NUMBER_OR_QUOTED, (found) => (found.startsWith('"') ? found : String(+Number(found).toFixed(3))));
+}
+
 /** The lines of a plan by its steps: a repeat is one step with all its lines. */
 function stepsOfLines(all) {
   let step = 0;
@@ -28,7 +35,7 @@ function stepsOfLines(all) {
 function draw() {
   const steps = stepsOfLines(plan.lines);
   lines.replaceChildren(...plan.lines.map((line, at) => {
-    const item = make("li", "", line);
+    const item = make("li", "", shown(line));
     const isRunning = plan.step > 0 && steps[at] === plan.step;
     item.classList.toggle("running", isRunning);
     item.classList.toggle("done", plan.step > steps[at] || plan.outcome === "completed");
