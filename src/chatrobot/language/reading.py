@@ -28,7 +28,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.restated import without_told_before, without_restated
+from chatrobot.language.restated import without_restated, without_told_before
 from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.standing import by_places, stood

@@ -53,7 +53,9 @@ def without_told_before(frames: Sequence[Frame]) -> list[Frame]:
     """The frames without what another sentence says again: `Left! Move left 50 cm`, `go 1 m, please do that now`."""
     said = [*frames[1:], None]
     kept = [frame for frame, after in zip(frames, said) if after is None or not _says_again(frame, after)]
-    return [frame for before, frame in zip([None, *kept], kept) if before is None or not _points_at(before, frame)]
+    return [
+        frame for before, frame in zip([None, *kept], kept) if before is None or not _points_at(before, frame)
+    ]
 
 
 def _says_again(frame: Frame, after: Frame) -> bool:
@@ -71,9 +73,7 @@ def _tells_way(frame: Frame, after: Frame) -> bool:
     if amount is None or again is None or not math.isclose(amount.number, again.number):
         return False
     size = {"length": amount}
-    plain = frame == Frame(
-        verb=frame.verb, q=size, texts=frame.texts, joined=frame.joined, opens=frame.opens
-    )
+    plain = frame == Frame(verb=frame.verb, q=size, texts=frame.texts, joined=frame.joined, opens=frame.opens)
     ahead = after == Frame(
         direction="forward", q={"length": again}, texts=after.texts, joined=after.joined, opens=after.opens
     )
@@ -83,7 +83,9 @@ def _tells_way(frame: Frame, after: Frame) -> bool:
 def _points_at(before: Frame, frame: Frame) -> bool:
     """`You were going to go forward a metre, so please do that now`: what was told is to be done, and once."""
     points = frame == Frame(flags={"again"}, texts=frame.texts, joined=frame.joined, opens=frame.opens)
-    if points and "same_amount" in before.flags and "times" not in before.q:  # `same distance, faster, once more`
+    if (
+        points and "same_amount" in before.flags and "times" not in before.q
+    ):  # `same distance, faster, once more`
         return frame.joined == "weak"
     said = frame.texts in (["that"], ["it"], ["this"], ["do that"], ["do it"], ["do this"])
     return points and said and frame.joined in ("weak", "strong") and before.moves and before.has_extent
