@@ -19,19 +19,14 @@ from chatrobot.language.unclear import Unclear
 _MOST_SIGNS, _MOST_TRIED = 26, 10
 _BEGINS = frozenset({"VERB", "FLAG", "MULTIPLE", "TIMES", "other", "same", "opening", "please", "request"})
 """Labels of the first word of an order."""
-_CLOSES = frozenset({"praise", "social", "robot", "person", "verdict", "mine", "kin"})
+_CLOSES = frozenset({"praise", "social", "robot", "person", "verdict", "mine", "kin", "for"})
 """Labels of the first word of talk behind an order: all else may go on with it."""
-_BEARING = (BINDING - {"please"}) | {
-    "report",
-    "later",
-    "sees",
-    "supposed",
-    "earlier",
-    "did",
-    "past",
-    *'"“”「」『』',
-}
-"""Labels of words that may bear on the order, or tell of another, wherever they stand."""
+_BEARING = (BINDING - {"please"}) | {"report", "later", "sees", "supposed", *'"“”「」『』'}
+"""Labels of words that may bear on the order, wherever they stand."""
+_TELLING = frozenset({"earlier", "did", "past"})
+"""Labels of words that may tell of another motion than the one that is ordered."""
+_NOW = "now"
+"""What parts what is told of before from what is ordered: `that made me dizzy now the other way round`."""
 _SUBJECTS = frozenset({"mine", "kin", "other", "person", "to", "can"})
 """Labels of words that do what the verb right behind them says: `we go back`."""
 _TALK, _SURE_TALK = ORDER, -1.5
@@ -85,7 +80,11 @@ def _parts(said: _Said) -> Iterator[tuple[int, int]]:
     """Where what may be the order begins and ends, all else being talk: the longest first."""
     count = len(said.signs)
     limit = _TALK if said.odds(0, count) >= ORDER else _SURE_TALK
-    begins = [i for i in range(count) if _may_begin(said, i) and _is_talk(said, 0, i, limit)]
+    begins = [
+        i
+        for i in range(count)
+        if _is_before_now(said, i) or (_may_begin(said, i) and _is_talk(said, 0, i, limit))
+    ]
     ends = [j for j in range(count, 0, -1) if _may_end(said, j) and _is_talk(said, j, count, limit)]
     parts = ((i, j) for i in begins for j in ends if i < j and 0 < i + count - j < count)
     return iter(sorted(parts, key=lambda part: part[0] - part[1]))
@@ -111,13 +110,22 @@ def _may_end(said: _Said, at: int) -> bool:
     return is_whole and sign.label in _CLOSES and sign.start not in said.opening
 
 
+def _is_before_now(said: _Said, at: int) -> bool:
+    """Whether `now` stands there, and nothing before it orders anything, or bears on what does."""
+    signs = said.signs[:at]
+    if not signs or said.signs[at].text != _NOW or said.signs[at].start in said.opening:
+        return False
+    bearing = _BEARING - {"question"}
+    return not any(sign.label in bearing or (sign.moves and sign.label.isupper()) for sign in signs)
+
+
 def _is_talk(said: _Said, begin: int, end: int, limit: float) -> bool:
     """Whether nothing of it is part of an order, or bears on one."""
     if begin == end:
         return True
-    bearing = relation_words("words")
+    bearing, labels = relation_words("words"), _BEARING if begin else _BEARING | _TELLING
     for sign in said.signs[begin:end]:
-        if sign.label in _BEARING or (sign.moves and sign.label.isupper()):
+        if sign.label in labels or (sign.moves and sign.label.isupper()):
             return False
         if any(word in bearing for word in sign.text.split("_")):
             return False
