@@ -36,6 +36,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if _goes_on_the_same_way(frames):
         return None
     check_answers_nothing(frames, context.dialogue)
+    if context.dialogue.last_motion is not None:
+        frames = _without_outcome(frames)
     whole = _whole(frames)
     if whole is None:
         return None
@@ -65,6 +67,10 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         if ("to_start" not in whole.flags and _only_turned(context)) or _only_slid(context):
             return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
         return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
+    last = context.dialogue.last_motion
+    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
+    if slid and (whole.verb, whole.direction) == ("slide", "back") and not (whole.q or whole.flags):
+        return inverse(list(steps_of(last)), pace.speed(whole))  # `then slide back`
     more = _more_of_before(whole, context, pace)
     if more is not None:
         return more
@@ -83,6 +89,14 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(last), whole, pace)
     return None
+
+
+def _without_outcome(frames: Sequence[Frame]) -> Sequence[Frame]:
+    """`That three more times, a square`, 再来三遍，走成正方形: the frames without the shape that comes of it."""
+    if len(frames) != 2 or frames[1].joined in ("and", "then") or not frames[1].shape or frames[1].q:
+        return frames
+    again = "again" in frames[0].flags and "times" in frames[0].q and not frames[0].moves
+    return frames[:1] if again and not any("this" in text.split() for text in frames[0].texts) else frames
 
 
 def _heading_before(whole: Frame, dialogue: Dialogue) -> float:

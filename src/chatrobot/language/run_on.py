@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from chatrobot.language.acts import ORDER, order_log_odds, read_acts
 from chatrobot.language.data_files import relation_words
-from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.signs import BINDING, Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
@@ -54,7 +54,7 @@ class _Said:
 
 
 def set_apart(
-    plain: str, names: Names, language: str, problem: Unclear, read: Reader
+    plain: str, names: Names, language: LanguageCode, problem: Unclear, read: Reader
 ) -> Interpretation | None:
     """The order in a normalised text, proposed, where `read` raised `problem`; None where none stands apart in it."""
     clauses = clauses_of(plain, names)
