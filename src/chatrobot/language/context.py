@@ -9,7 +9,10 @@ from functools import cached_property
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.ledger import Ledger, TurnRecord
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Plan, Wait
+
+_STAY = Plan((Wait(1.0),))
+"""What is done where a wait has no time."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +41,11 @@ class Dialogue:
 
     @property
     def last_motion(self) -> TurnRecord | None:
-        """The last turn that had a plan."""
-        return next((turn for turn in reversed(self.turns) if turn.plan is not None), None)
+        """The last turn that had a plan; `stay like that`, for no time that is told, is none if there is another."""
+        planned = [turn for turn in self.turns if turn.plan is not None]
+        return next(
+            (turn for turn in reversed(planned) if turn.plan != _STAY), planned[-1] if planned else None
+        )
 
     @cached_property
     def ledger(self) -> Ledger:

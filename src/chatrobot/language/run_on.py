@@ -25,6 +25,8 @@ _BEARING = (BINDING - {"please"}) | {"report", "later", "sees", "supposed", *'"â
 """Labels of words that may bear on the order, wherever they stand."""
 _TELLING = frozenset({"earlier", "did", "past"})
 """Labels of words that may tell of another motion than the one that is ordered."""
+_STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
+"""Why a text was not read, where it may have talk in it."""
 _NOW = "now"
 """What parts what is told of before from what is ordered: `that made me dizzy now the other way round`."""
 _SUBJECTS = frozenset({"mine", "kin", "other", "person", "to", "can"})
@@ -59,7 +61,12 @@ def set_apart(
     """The order in a normalised text, proposed, where `read` raised `problem`; None where none stands apart in it."""
     clauses = clauses_of(plain, names)
     signs = [sign for clause in clauses for sign in clause.signs]
-    if problem.refused or not 1 < len(signs) <= _MOST_SIGNS or not any(sign.moves for sign in signs):
+    if (
+        problem.refused
+        or problem.code not in _STUMBLED
+        or not 1 < len(signs) <= _MOST_SIGNS
+        or not any(sign.moves for sign in signs)
+    ):
         return None
     said = _Said(plain, names, signs, frozenset(clause.signs[0].start for clause in clauses))
     for (begin, end), _ in zip(_parts(said), range(_MOST_TRIED)):
@@ -99,6 +106,9 @@ def _may_begin(said: _Said, at: int) -> bool:
         return False
     if before.text in relation_words("words") | relation_words("articles"):
         return False
+    named = before.label == "thing" or (at > 1 and said.signs[at - 2].text in relation_words("articles"))
+    if named and sign.label == "FLAG":
+        return False  # `the turn again`
     return before.label not in _SUBJECTS or sign.label != "VERB"
 
 
@@ -123,7 +133,8 @@ def _is_talk(said: _Said, begin: int, end: int, limit: float) -> bool:
     """Whether nothing of it is part of an order, or bears on one."""
     if begin == end:
         return True
-    bearing, labels = relation_words("words"), _BEARING if begin else _BEARING | _TELLING
+    bearing = relation_words("words") | relation_words("moved")
+    labels = _BEARING if begin else _BEARING | _TELLING
     for sign in said.signs[begin:end]:
         if sign.label in labels or (sign.moves and sign.label.isupper()):
             return False
