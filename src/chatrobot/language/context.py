@@ -9,10 +9,7 @@ from functools import cached_property
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.ledger import Ledger, TurnRecord
-from chatrobot.plan.steps import Plan, Wait
-
-_STAY = Plan((Wait(1.0),))
-"""What is done where a wait has no time."""
+from chatrobot.plan.steps import Plan
 
 
 @dataclass(frozen=True)
@@ -41,11 +38,8 @@ class Dialogue:
 
     @property
     def last_motion(self) -> TurnRecord | None:
-        """The last turn that had a plan; `stay like that`, for no time that is told, is none if there is another."""
-        planned = [turn for turn in self.turns if turn.plan is not None]
-        return next(
-            (turn for turn in reversed(planned) if turn.plan != _STAY), planned[-1] if planned else None
-        )
+        """The last turn that had a plan."""
+        return next((turn for turn in reversed(self.turns) if turn.plan is not None), None)
 
     @cached_property
     def ledger(self) -> Ledger:
