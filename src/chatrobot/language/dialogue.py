@@ -10,7 +10,7 @@ from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import Frame
-from chatrobot.language.inverse import inverse
+from chatrobot.language.inverse import inverse, is_sideways
 from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
@@ -36,6 +36,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     if _goes_on_the_same_way(frames):
         return None
     check_answers_nothing(frames, context.dialogue)
+    if context.dialogue.last_motion is not None:
+        frames = _without_outcome(frames)
     whole = _whole(frames)
     if whole is None:
         return None
@@ -62,9 +64,13 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         if whole.direction and whole.direction != "back":
             return None
         start = context.dialogue.start_pose
-        if "to_start" not in whole.flags and _only_turned(context):
+        if ("to_start" not in whole.flags and _only_turned(context)) or _only_slid(context):
             return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
         return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
+    last = context.dialogue.last_motion
+    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
+    if slid and (whole.verb, whole.direction) == ("slide", "back") and not (whole.q or whole.flags):
+        return inverse(list(steps_of(last)), pace.speed(whole))  # `then slide back`
     more = _more_of_before(whole, context, pace)
     if more is not None:
         return more
@@ -83,6 +89,14 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
             raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
         return changed(steps_of(last), whole, pace)
     return None
+
+
+def _without_outcome(frames: Sequence[Frame]) -> Sequence[Frame]:
+    """`That three more times, a square`, 再来三遍，走成正方形: the frames without the shape that comes of it."""
+    if len(frames) != 2 or frames[1].joined in ("and", "then") or not frames[1].shape or frames[1].q:
+        return frames
+    again = "again" in frames[0].flags and "times" in frames[0].q and not frames[0].moves
+    return frames[:1] if again and not any("this" in text.split() for text in frames[0].texts) else frames
 
 
 def _heading_before(whole: Frame, dialogue: Dialogue) -> float:
@@ -138,6 +152,16 @@ def _only_turned(context: Context) -> bool:
         last is not None and last.plan and all(isinstance(step, (Turn, Wait)) for step in last.plan.steps)
     )
     return bool(turned) and context.state.pose.distance_to(context.dialogue.start_pose) <= NEAR_M
+
+
+def _only_slid(context: Context) -> bool:
+    """Whether the last motion slid sideways from where it all began: the way back is a slide as well, and no turn."""
+    last, start = context.dialogue.last_motion, context.dialogue.start_pose
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    if last is None or len(steps) != 1 or not is_sideways(steps[0]):
+        return False
+    off_rad = wrap_angle(last.start_pose.yaw_rad - start.yaw_rad)
+    return last.start_pose.distance_to(start) <= NEAR_M and abs(off_rad) <= FAR_RAD / 4
 
 
 def walked(frames: Sequence[Frame], context: Context, pace: Pace) -> Walked | None:

@@ -110,6 +110,8 @@ def _in_edit(atom: Atom, said: set[str]) -> Atom:
     """The atom as it is meant of the motion before: `back the same amount` is a way, `in reverse order` changes it."""
     if (atom.kind, atom.value) == ("order", "reverse"):
         return Atom("flag", "reversed", atom.text)
+    if (atom.kind, atom.value) == ("q", "fold") and "速" in atom.text:
+        return quantity("faster", atom.number, atom.text)  # 速度翻倍 is no distance
     goes_back = (atom.kind, atom.value) == ("verb", "return") and "same_amount" in said
     return Atom("dir", "back", atom.text) if goes_back else atom
 

@@ -51,6 +51,7 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
+from chatrobot.language.run_on import set_apart
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
@@ -157,9 +158,10 @@ class OfflineInterpreter:
             dialogue = replace(reading.context.dialogue, turns=(), pending="")
             return read(part, replace(reading.context, dialogue=dialogue))
 
-        names = names_in(reading.context)
+        names, plain = names_in(reading.context), normalise(text)
         unit = unit_after(reading.context)
-        return likeliest(normalise(text), names, reading.language, problem, read, read_anew, unit)
+        found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
+        return found or set_apart(plain, names, reading.language, problem, read)
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""

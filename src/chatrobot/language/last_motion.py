@@ -151,7 +151,7 @@ def unit_after(context: Context) -> str:
     state, last = state_after(context), context.dialogue.last_motion
     if last is not None and last.plan is not None and getattr(last.plan.steps[-1], "duration_s", None):
         return "s"
-    if state.last == "turn":
+    if state.last == "turn" and "side" not in state.sizes:
         return "deg"
     return {0.01: "cm", 0.0254: "in", 0.3048: "ft", 1.0: "m"}.get(state.unit_m or 0.0, "")
 

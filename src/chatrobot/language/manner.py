@@ -58,7 +58,8 @@ def _relative(frame: Frame, default: float, before: float, maximum: float) -> fl
     fold = frame.q.get("fold")
     if fold is not None and is_chinese(fold.text) and not re.search("速|快|平|默|正|车|原|半", fold.text):
         raise Unclear("unclear_motion", frame.text)  # twice what?
-    for name, usual in (("fold", default), ("faster", before)):
+    of_before = before if "same_amount" in frame.flags else default  # 同样的距离，速度翻倍
+    for name, usual in (("fold", of_before), ("faster", before)):
         if name in frame.q:
             return _positive(frame, name) * usual
     factors = {

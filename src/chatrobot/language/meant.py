@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 
 from chatrobot.language.context import Context
 from chatrobot.language.corrections import CORRECTING, MEANT, corrected
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import expand, load_table
 from chatrobot.language.frames import GO, SIDES, TURN, Frame
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
@@ -107,7 +107,8 @@ def asked_by_remark(text: str, language: str) -> str:
 def _remarks(language: str) -> tuple[tuple[str, Callable[[str], bool]], ...]:
     table = load_table(language, "remarks")
     asks = table.get("asks", {})
-    return tuple((order, saying(words, table["beside"], language)) for order, words in asks.items())
+    said = ((order, [form for word in words for form in expand(word)]) for order, words in asks.items())
+    return tuple((order, saying(words, table["beside"], language)) for order, words in said)
 
 
 @lru_cache(maxsize=128)

@@ -28,7 +28,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.restated import without_lone_way, without_restated
+from chatrobot.language.restated import without_restated, without_told_before
 from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.standing import by_places, stood
@@ -49,7 +49,7 @@ def frames_of(atoms: Sequence[Atom]) -> list[Frame]:
         Unclear: for a word that nothing accounts for.
     """
     settled = settle_condition(with_defined_units(without_chatter(with_announced(unrolled(atoms)))))
-    return without_lone_way(read_frames(tidy(without_negated(in_order(corrected(settled))))))
+    return without_told_before(read_frames(tidy(without_negated(in_order(corrected(settled))))))
 
 
 @dataclass(frozen=True)

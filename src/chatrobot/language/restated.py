@@ -1,6 +1,6 @@
 """三尺，也就是一米: an amount that is said again in other words. It is one amount, and both must agree.
 
-`Left! Move left 50 cm`: a way that is said again with its motion.
+`Left! Move left 50 cm`: a way that is said again with its motion. `We'll go 1 m, ok? Forward 1 m`: a motion that is.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
-from chatrobot.language.frames import Frame
+from chatrobot.language.frames import GO, Frame
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -49,10 +49,13 @@ def without_restated(atoms: Sequence[Atom]) -> list[Atom]:
     return out
 
 
-def without_lone_way(frames: Sequence[Frame]) -> list[Frame]:
-    """`Left! Move left 50 cm`: the frames without a way that the sentence after it says again."""
+def without_told_before(frames: Sequence[Frame]) -> list[Frame]:
+    """The frames without what another sentence says again: `Left! Move left 50 cm`, `go 1 m, please do that now`."""
     said = [*frames[1:], None]
-    return [frame for frame, after in zip(frames, said) if after is None or not _says_again(frame, after)]
+    kept = [frame for frame, after in zip(frames, said) if after is None or not _says_again(frame, after)]
+    return [
+        frame for before, frame in zip([None, *kept], kept) if before is None or not _points_at(before, frame)
+    ]
 
 
 def _says_again(frame: Frame, after: Frame) -> bool:
@@ -61,7 +64,31 @@ def _says_again(frame: Frame, after: Frame) -> bool:
         direction=frame.direction, rot=frame.rot, texts=frame.texts, joined=frame.joined, opens=frame.opens
     )
     same = way in (after.direction, after.rot) and bool(after.verb) and after.has_extent
-    return lone and after.joined == "strong" and same
+    return (lone and after.joined == "strong" and same) or _tells_way(frame, after)
+
+
+def _tells_way(frame: Frame, after: Frame) -> bool:
+    """`We'll go a metre twenty ok? forward a metre twenty`: so far, and then the way of it."""
+    amount, again = frame.q.get("length"), after.q.get("length")
+    if amount is None or again is None or not math.isclose(amount.number, again.number):
+        return False
+    size = {"length": amount}
+    plain = frame == Frame(verb=frame.verb, q=size, texts=frame.texts, joined=frame.joined, opens=frame.opens)
+    ahead = after == Frame(
+        direction="forward", q={"length": again}, texts=after.texts, joined=after.joined, opens=after.opens
+    )
+    return plain and ahead and frame.verb in GO and after.joined not in ("and", "then")
+
+
+def _points_at(before: Frame, frame: Frame) -> bool:
+    """`You were going to go forward a metre, so please do that now`: what was told is to be done, and once."""
+    points = frame == Frame(flags={"again"}, texts=frame.texts, joined=frame.joined, opens=frame.opens)
+    if (
+        points and "same_amount" in before.flags and "times" not in before.q
+    ):  # `same distance, faster, once more`
+        return frame.joined == "weak"
+    said = frame.texts in (["that"], ["it"], ["this"], ["do that"], ["do it"], ["do this"])
+    return points and said and frame.joined in ("weak", "strong") and before.moves and before.has_extent
 
 
 def _only_explains(out: Sequence[Atom]) -> bool:

@@ -85,6 +85,9 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
     back = taken_back(context, profile, turns)
     way = context.dialogue.ledger.undoes(turns).way
     if turning and (way is None or not all(isinstance(step, Turn) for step in way)):
+        turned: list[Step] = [step for step in way or () if isinstance(step, Turn)]
+        if way and turns == 1 and turned == [way[-1]]:  # `undo the turn`, which came last
+            return Walked(tuple(inverse(turned)), None)
         raise Unclear("unclear_motion", whole.text)
     return back
 
