@@ -127,8 +127,7 @@ class OfflineInterpreter:
                 or self._remarked(text, reading)
                 or self._likeliest(problem, text, reading)
             )
-            if asked is None and meant is not None and meant.proposal is not None:
-                return meant
+            asked = asked or (meant if meant is not None and meant.proposal is not None else None)
             return replace(asked or asked_back(problem, language), corrects=says_meant(text))
 
     def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
