@@ -8,7 +8,7 @@ import pytest
 
 from chatrobot.plan.steps import Turn
 from chatrobot.plan.text import parse_plan
-from tests.language.dialogue_runner import Conversation
+from tests.language.dialogue_runner import Conversation, conversation
 
 
 @pytest.mark.parametrize(
@@ -86,3 +86,16 @@ def test_to_stand_still_for_a_time_is_still_a_wait() -> None:
     assert Conversation().say("don't move for 5 s, then forward 1 m").plan == parse_plan(
         "wait 5 s\ndrive 1 m"
     )
+
+
+@pytest.mark.parametrize(
+    ("denied", "order", "plan"),
+    [
+        ("don't turn left", "forward 1 m", "drive 1 m"),
+        ("do not go back", "90 degrees to the left", "turn left 90 deg"),
+        ("别往左转", "前进一米", "drive 1 m"),
+        ("nicht nach links drehen", "1 m vorwärts", "drive 1 m"),
+    ],
+)
+def test_what_is_ordered_instead_has_nothing_of_what_was_denied(denied: str, order: str, plan: str) -> None:
+    assert conversation(denied).say(order).plan == parse_plan(plan)

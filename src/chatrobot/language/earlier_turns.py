@@ -33,6 +33,8 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     if changes_nothing_said(normalise(pending), reading):
         return None  # it was to change a plan, and did not: nothing is to stay of it
     before = rephrased(normalise(pending), reading.language)
+    if _forbids(before, reading):
+        return None  # `don't turn left`: what is ordered instead has nothing of it
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
@@ -53,6 +55,14 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
+
+
+def _forbids(before: str, reading: Reading) -> bool:
+    try:
+        read_command(before, reading)
+    except Unclear as problem:
+        return problem.code == "only_forbidden"
+    return False
 
 
 def with_earlier_unit(plain: str, reading: Reading) -> str:
