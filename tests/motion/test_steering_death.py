@@ -22,11 +22,14 @@ PROMISE_S = 0.25
 HOLDS = """
 import sys, threading, time
 from chatrobot.compose import Setup, connect
+from chatrobot.core.events import Telemetry
 from chatrobot.core.geometry import Twist
 from chatrobot.dialogue.pump import Pump
 
-session = connect(Setup(world="empty"), lambda event: None).session
+met = threading.Event()
+session = connect(Setup(world="empty"), lambda event: met.set() if isinstance(event, Telemetry) else None).session
 Pump(session, lambda error: None).start()
+assert met.wait(10.0)  # a stick that is pressed while nothing may move yet has to be let go first
 is_held = True
 
 def hear():
