@@ -39,7 +39,8 @@ _ORDERED = ("verb", "dir", "rot", "shape")
 _TOLD = frozenset({"q", "place", "flag", "nth"})
 """What makes a verb an order, beside a way and a shape."""
 _WAYS = frozenset({"dir", "rot", "shape", "place", "number", "unknown", "num"})
-_LENGTHS = frozenset({"length", "angle", "turns", "again", "return", "go", "turn", "count", "fold"})
+_MOTIONS = frozenset({"length", "angle", "turns", "again", "return", "go", "turn", "count", "fold"})
+"""Kinds of atoms, and values of others, which a denial to move goes on with: `don't move forward`, `… 1 m`."""
 _OTHER_ROT = {"left": "right", "right": "left"}
 _BEFORE_MEANT = frozenset({"sep", "filler", "glue", "negation", "correction"})
 
@@ -239,7 +240,7 @@ def with_denied_motions(atoms: Sequence[Atom]) -> list[Atom]:
     for i, atom in enumerate(atoms):
         denied = _denied(atom.text) if (atom.kind, atom.value) == ("verb", "wait") else []
         after = next((a for a in atoms[i + 1 :] if a.kind not in ("glue", "filler")), None)
-        is_bound = after is not None and (after.kind in _WAYS or after.value in _LENGTHS)
+        is_bound = after is not None and (after.kind in _WAYS or after.value in _MOTIONS)
         out += denied if denied and is_bound else [atom]
     return out
 

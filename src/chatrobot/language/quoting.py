@@ -36,10 +36,7 @@ def quotes_behind(clause: Clause, *, begins: bool) -> bool:
     names = ("points_back", "bounds", "takes_back" if begins else "tells_of_order")
     first, last = (clause.signs[at].text.replace("_", " ") for at in (0, -1))
     speech = _phrases()["speech"]
-    is_own = clause.signs[0].label == "mine"
-    if first in speech or (
-        last in speech and len(clause.signs) > 1 and not is_own
-    ):  # `as my mum always says`
+    if first in speech or (last in speech and clause.signs[0].label != "mine"):  # `as my mum always says`
         return True
     return any(_begins_with(clause, name) for name in names) or any(
         sign.label == "correction" for sign in clause.signs
