@@ -101,7 +101,6 @@ def test_pieces_are_handed_on_as_they_come() -> None:
 
 
 @pytest.mark.realtime
-@pytest.mark.alone
 def test_our_own_part_of_a_call_is_short() -> None:
     """From `ask` to the end of a reply that the server gives at once, with the server's own part in it.
 

@@ -12,7 +12,7 @@ from scripts.faults import has_ended
 from chatrobot.wire.messages import TwistMessage
 from tests.nodes.node_rig import NodeRig, running
 
-pytestmark = [pytest.mark.realtime, pytest.mark.alone]
+pytestmark = pytest.mark.realtime
 
 PROMISE_S, GUARD_GONE_S = 0.25, 1.0
 ASKED_TO_END = {"control": 5, "base": 5, "input": 5}
@@ -35,6 +35,7 @@ def end_the_launch(rig: NodeRig) -> float:
     return took_s
 
 
+@pytest.mark.alone
 def test_ctrl_c_for_all_while_the_robot_drives(tmp_path: Path) -> None:
     with running(tmp_path, namespace="robot1") as rig:
         rig.drive()
@@ -47,6 +48,7 @@ def test_ctrl_c_for_all_while_it_stands(tmp_path: Path) -> None:
         end_the_launch(rig)
 
 
+@pytest.mark.alone
 def test_a_guard_in_a_namespace_halts_its_robot_and_no_other(tmp_path: Path) -> None:
     with running(tmp_path, namespace="robot1") as rig:
         elsewhere: list[object] = []

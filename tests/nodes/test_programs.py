@@ -15,7 +15,7 @@ from tests.nodes.node_rig import NodeRig
 from tests.programs.requests import ROTATION
 from tests.programs.scripted_model import program
 
-pytestmark = [pytest.mark.realtime, pytest.mark.alone]
+pytestmark = pytest.mark.realtime
 
 PROMISE_S = 0.25
 FOR_EVER = "Generate a ROS 2 Python program to drive forward at 0.3 m/s for 300 seconds."
@@ -77,6 +77,7 @@ def test_findings_are_asked_about_on_user_input(rig: NodeRig) -> None:
     assert not any(any(twist) for at_s, twist in tuple(rig.velocities.all) if at_s >= said_s)
 
 
+@pytest.mark.alone
 def test_a_typed_stop_ends_a_program(rig: NodeRig) -> None:
     said_s = started(rig, FOR_EVER)
     typed_s = rig.nodes["input"].say("stop")
@@ -86,6 +87,7 @@ def test_a_typed_stop_ends_a_program(rig: NodeRig) -> None:
     assert rig.result(said_s, "Stopped (")["outcome"] == "stopped"
 
 
+@pytest.mark.alone
 def test_whatever_dies_the_robot_stands_within_250_ms(rig: NodeRig) -> None:
     for whom in ("program", "server"):
         said_s = started(rig, FOR_EVER)

@@ -26,7 +26,7 @@ from chatrobot.programs.sandboxed import SandboxedProgram
 from chatrobot.robots.load import load_profile
 from chatrobot.sandbox.warm_server import WarmServer
 
-pytestmark = [pytest.mark.realtime, pytest.mark.alone]
+pytestmark = pytest.mark.realtime
 TOPICS = robot_topics(load_profile("wheeltec_mini_mec").wiring)
 PATIENCE_S = 10.0
 
@@ -67,6 +67,7 @@ DRIVER = """
 """
 
 
+@pytest.mark.alone
 def test_it_answers_its_robot_and_beats(server: WarmServer) -> None:
     program = launch(server, DRIVER)
     try:
@@ -107,6 +108,7 @@ def test_an_exception_of_a_thread_is_printed_with_the_programs_own_lines(server:
     program.close()
 
 
+@pytest.mark.alone
 def test_a_frozen_program_beats_no_more(server: WarmServer) -> None:
     program = launch(server, "import time\ntime.sleep(60)")
     until(program, lambda event: isinstance(event, Beat))
@@ -119,6 +121,7 @@ def test_a_frozen_program_beats_no_more(server: WarmServer) -> None:
     program.close()
 
 
+@pytest.mark.alone
 def test_a_program_that_computes_without_end_still_beats(server: WarmServer) -> None:
     program = launch(server, "while True:\n    pass")
     for _ in range(4):

@@ -231,7 +231,7 @@ class Understanding:
             if meant.remember_place:
                 self.places.add(meant.remember_place, self._state.pose)
         outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
-        self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped")))
+        self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped"), told=meant.reply))
         pending = text if meant.outcome == "unclear" else ""
         held = parse_plan(meant.proposal.plan_text) if meant.is_held and meant.proposal is not None else None
         self._dialogue = replace(self._dialogue, pending="" if held else pending, held=held)

@@ -69,7 +69,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     Raises:
         Unclear: where the change fits none of them, or several.
     """
-    whole = _part_said(_speed_said(whole, before))
+    whole = _speed_said(_part_said(whole), before)
     fold = whole.q.get("fold")
     if fold is not None and is_chinese(fold.text):
         whole = whole.copy()

@@ -208,8 +208,8 @@ def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation
     doubt = next((a for a in atoms if a.kind == "doubt" and a.text != "来着"), None)
     if doubt is not None and not plain.endswith("?") and refusal is None:
         raise Unclear("unknown_part", doubt.text)
-    if refusal is None:
-        asks = ability or questions.is_question(plain, language)
+    asks = ability or questions.is_question(plain, language)
+    if refusal is None or (asks and questions.topic_of(plain, language) == "contact"):
         return _question(plain, atoms, ability, reading) if asks else None
     if ability and plain.endswith("?"):
         return Interpretation("answered", say(language, "answer_cannot"), language)
@@ -265,7 +265,7 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         frames = frames_of(atoms)
         check_finished(atoms)
         steps = reading.steps(frames)
-        steps = [] if is_choice(plain, language) else steps
+        steps = [] if is_choice(plain, language) or questions.asks_what_it_can(plain, language) else steps
         plain_question = questions.is_plain_question(plain, language)
         if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
             return None

@@ -19,8 +19,8 @@ from chatrobot.language.tidy import tidy
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Turn
 
-_REFERRING = frozenset({"same_amount", "again", "more"})
-"""Flags of what points at the motion before, and answers no question."""
+_OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
+"""Flags of what points at the motion before or is a motion itself, and answers no question."""
 
 
 def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
@@ -38,7 +38,7 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
-    if any(a.kind in ("verb", "shape", "place") or a.value in _REFERRING for a in verbs):
+    if any(a.kind in ("verb", "shape", "place") or a.value in _OF_ITS_OWN for a in verbs):
         return None
     amended = with_answered_amount(before, plain, reading)
     if amended is not None:

@@ -44,6 +44,12 @@ def _then(atoms: Sequence[Atom], i: int) -> Atom:
     return Atom("conn", "then", atoms[i].text)
 
 
+def _connective(atoms: Sequence[Atom], i: int) -> Atom:
+    """`Go forward then, 2 m`: nothing follows in its clause, so that it parts nothing."""
+    loose = i and atoms[i - 1].kind != "sep" and is_kind(atoms, i + 1, "sep", "weak")
+    return _glue(atoms, i) if loose else atoms[i]
+
+
 def _second(atoms: Sequence[Atom], i: int) -> Atom:
     """`30 degrees for second`: how fast, or for how long?"""
     loose = is_kind(atoms, i - 1, "glue", "x") and atoms[i - 1].text == "for" and is_kind(atoms, i - 2, "q")
@@ -150,7 +156,7 @@ _SETTLED: dict[str, Callable[[Sequence[Atom], int], Atom]] = {
     "verb": _verb, "dir": _direction, "num": _leftover_number, "filler": _pause, "unit_length": _unit_of_length,
     "second": _second, "fraction": _ordinal, "letter": _letter, "counter": _counter, "unit_times": _times,
     "per": _glue, "unit_turn": _full_turn, "role": _role, "flag": _flag, "unit_percent": _percent,
-    "glue": _glue_word, "unit_angle": _unit_of_angle,
+    "glue": _glue_word, "conn": _connective, "unit_angle": _unit_of_angle,
 }  # fmt: skip
 
 

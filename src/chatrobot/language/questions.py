@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Mapping
 from functools import cache
 
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import fixed
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
-from chatrobot.language.phrases import by_language, say
+from chatrobot.language.phrases import by_language, describe_plan, say
 from chatrobot.robots.profile import RobotProfile
 
 _LONGEST_COURTESY = 60
@@ -82,6 +83,11 @@ def asks_ability(text: str, language: str) -> bool:
     return found.search(text) is not None
 
 
+def asks_what_it_can(text: str, language: str) -> bool:
+    """`Can you drive backwards?`, with nothing else beside it: a fact about this robot."""
+    return topic_of(text, language) in _ABILITIES
+
+
 def asks_a_favour(text: str, language: str) -> bool:
     """`Could you …`: something to be done, though it is put as a question."""
     return _has("favour", text, language)
@@ -130,9 +136,41 @@ def unknown_pose(context: Context) -> str:
 
 def answer(topic: str, language: str, context: Context, profile: RobotProfile) -> str:
     """The answer in words; says so where something is not known."""
-    state = context.state
+    if topic in _MEASURED and unknown_pose(context):
+        return say(language, unknown_pose(context))
+    if topic in ("why", "done", "done_before", "understood"):
+        return _told_of(topic, language, context.dialogue)
+    values = _values(language, context, profile)
+    known = {"battery": "percent", "obstacle": "distance_m", "duration": "duration_s", "sight": "range_m"}
+    if topic in known and known[topic] not in values:
+        return say(language, f"answer_{topic}_unknown")
+    if topic == "contact":
+        seen = say(
+            language, f"answer_obstacle{'_unknown' if context.state.obstacle_m is None else ''}", **values
+        )
+        return say(language, "answer_contact", seen=seen)
+    if topic == "moving":
+        topic = "moving" if context.state.moving else "standing"
+    if topic in _ABILITIES:
+        return say(language, f"answer_{topic}{'' if _ABILITIES[topic](profile) else '_not'}")
+    return say(language, f"answer_{topic}", **values)
+
+
+_ABILITIES: Mapping[str, Callable[[RobotProfile], bool]] = {
+    "reverse": lambda _: True,
+    "sideways": lambda profile: profile.can_go_sideways,
+    "on_the_spot": lambda profile: profile.limits.min_turning_radius_m == 0.0,
+    "camera": lambda profile: profile.wiring.camera_topic is not None,
+}
+"""What one kind of robot can do, or has, and another not."""
+
+
+def _values(language: str, context: Context, profile: RobotProfile) -> dict[str, float | int | str]:
+    """What is known, by the names that the phrases have for it."""
+    state, last = context.state, context.dialogue.last_motion
     pose = state.pose.relative_to(context.dialogue.start_pose)
-    values: dict[str, float | int | str] = {
+    (low_x_m, high_x_m), (low_y_m, high_y_m) = ((min(of), max(of)) for of in zip(*profile.footprint))
+    told: dict[str, float | int | str | None] = {
         "where": _where(pose, language),
         "turned": _turned(pose, language),
         "speed_mps": math.hypot(state.twist.vx_mps, state.twist.vy_mps),
@@ -143,28 +181,28 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         "title": profile.title,
         "places": places_known(context, language),
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
+        "percent": state.battery_percent,
+        "distance_m": state.obstacle_m,
+        "duration_s": last.duration_s if last is not None else None,
+        "length_m": high_x_m - low_x_m,
+        "width_m": high_y_m - low_y_m,
+        "most_m": profile.safety.budget.distance_m,
+        "most_s": profile.safety.budget.time_s,
+        "range_m": profile.lidar.max_range_m if profile.lidar is not None else None,
     }
-    if topic in _MEASURED and unknown_pose(context):
-        return say(language, unknown_pose(context))
-    if topic == "battery":
-        if state.battery_percent is None:
-            return say(language, "answer_battery_unknown")
-        values["percent"] = state.battery_percent
-    if topic == "obstacle":
-        if state.obstacle_m is None:
-            return say(language, "answer_obstacle_unknown")
-        values["distance_m"] = state.obstacle_m
-    if topic == "duration":
-        last = context.dialogue.last_motion
-        if last is None or last.duration_s is None:
-            return say(language, "answer_duration_unknown")
-        values["duration_s"] = last.duration_s
-    if topic in ("done", "done_before"):
-        done = [turn for turn in context.dialogue.turns if turn.plan is not None and turn.told]
-        back = 2 if topic == "done_before" else 1
-        if len(done) < back:
-            return say(language, "answer_nothing_done")
-        return say(language, "answer_done", last=done[-back].text, told=done[-back].told)
-    if topic == "moving":
-        return say(language, "answer_moving" if state.moving else "answer_standing", **values)
-    return say(language, f"answer_{topic}", **values)
+    return {name: value for name, value in told.items() if value is not None}
+
+
+def _told_of(topic: str, language: str, dialogue: Dialogue) -> str:
+    """How the last turn was understood or ended, or what the last motion did, or the one before it."""
+    asked = topic in ("why", "understood")
+    turns = [
+        turn for turn in dialogue.turns if (turn.outcome != "answered" if asked else turn.plan and turn.told)
+    ]
+    back = 2 if topic == "done_before" else 1
+    if len(turns) < back:
+        return say(language, "answer_nothing_done")
+    turn = turns[-back]
+    if topic == "understood" and turn.plan is not None:
+        return say(language, "answer_understood", last=turn.text, text=describe_plan(turn.plan, language))
+    return say(language, "answer_done", last=turn.text, told=turn.told)
