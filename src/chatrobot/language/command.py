@@ -9,11 +9,11 @@ from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.corrections import CORRECTING
-from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import edited, resized
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
+from chatrobot.language.last_motion import figure_that_way
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
@@ -104,10 +104,11 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if until is not None:
         return _until(until, reading)
     check_no_manner(atoms, language)
-    changed = of_before(plain, atoms, reading)
+    that_way = figure_that_way(atoms, reading.context.dialogue)
+    changed = that_way or of_before(plain, atoms, reading)
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
-        if is_change_alone(plain, language):
+        if that_way or is_change_alone(plain, language):
             return proposed(planned(changed, language), language) or planned(changed, language)
         return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)
@@ -144,12 +145,12 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     if is_changed and not any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in atoms):
         raise Unclear("unclear_motion", plain[:60])  # 角度改成六十度: of what was done, or once more?
     size = with_another_size(plain, atoms, language)
-    if size is not None and len(before) > 1:
-        sized = resized(list(before), Edit(amounts=[size], roles={"side"}))
+    if size is not None and (len(before) > 1 or size.roles != {"side"}):
+        sized = resized(list(before), size)
         if sized is not None:
             return sized
         if not any(a.value == "again" for a in atoms):
-            raise Unclear("which_size", size.text)  # `now with 30 cm` after sides of two lengths
+            raise Unclear("which_size", size.amounts[0].text)  # `now with 30 cm` after sides of two lengths
     if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
         own = frames_of(atoms[:-2])
         if any(frame.moves for frame in own):

@@ -192,7 +192,7 @@ def _step(step: Step, language: str) -> str:
     if isinstance(step, Go):
         return _go(step, spoken)
     if isinstance(step, Face):
-        return spoken("step_face")
+        return spoken("step_face", deg=number(math.degrees(step.yaw_rad), ANGLE_PLACES))
     if isinstance(step, Wait):
         return spoken("step_wait", s=number(step.duration_s))
     if isinstance(step, Say):

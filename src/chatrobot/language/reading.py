@@ -21,6 +21,7 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.last_motion import speeds_said, state_after
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.looking import facing
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import instead
 from chatrobot.language.multiples import in_shares, with_multiples
@@ -134,6 +135,7 @@ class Reading:
             state_after(self.context),
             lambda go: once_around(go, self.context),
             lambda said, known: stood(said, known, self.context),
+            lambda go, before: facing(go, before, self.context),
         )
 
 

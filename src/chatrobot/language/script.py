@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import act
@@ -12,7 +12,7 @@ from chatrobot.language.frames import PLACE_HEADING, Frame
 from chatrobot.language.manner import Pace
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Go, Step
+from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Face, Go, Step
 
 
 @dataclass
@@ -24,6 +24,7 @@ class Memory:
     state: State = field(default_factory=State)
     around: Callable[[Go], list[Go]] | None = None
     standing: Callable[[str, Mapping[str, Go]], Go | None] | None = None
+    facing: Callable[[Go, Sequence[Step]], Face] | None = None
 
 
 @dataclass
@@ -43,6 +44,9 @@ class Script:
         """One more unit, which goes on from those before."""
         self.state.steps.extend(unit)
         self.units.append(unit)
+
+
+_TO_A_PLACE = ("", "go", "return", "make", "shift", "halt")
 
 
 def whole_count(said: Atom) -> int:
@@ -139,7 +143,8 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     goes_around = AROUND in frame.flags
     turns = bool(frame.rot) and not goes_around
     partly = "number" in frame.q or "halfway" in frame.flags  # `half to the sofa` is not all of the way
-    if frame.verb not in ("", "go", "return", "make", "shift", "halt") or frame.has_extent or turns or partly:
+    looks = frame.verb == "face" and not (frame.direction or frame.rot or goes_around)
+    if (frame.verb not in _TO_A_PLACE and not looks) or frame.has_extent or turns or partly:
         raise Unclear("unclear_motion", frame.text)
     places, standing = script.memory.places, script.memory.standing
     go = places.get(frame.place) or (standing(frame.place, places) if standing else None)
@@ -148,6 +153,10 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     faces = PLACE_HEADING in frame.flags
     if faces and go.yaw_rad is None:
         raise Unclear("place_has_no_heading", frame.place)
+    if looks and script.memory.facing is not None:
+        script.state.last = "turn"
+        turn = script.memory.facing(go, script.state.steps)
+        return [replace(turn, rate_radps=script.pace.rate(frame))]
     script.state.last = "go"
     if goes_around and script.memory.around is not None:
         ring = script.memory.around(go)

@@ -316,12 +316,20 @@ def check_no_manner(atoms: Sequence[Atom], language: str) -> None:
             raise Unclear("unclear_motion", atom.text)
 
 
-def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Atom | None:
-    """The one length of `now with 50 cm`, `the same with 50 cm`, for the one before; None for anything else."""
+_SIZED = ("side", "radius", "diameter")
+
+
+def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Edit | None:
+    """`Now with 50 cm`, `the same with 50 cm`, `with a radius of 1 m`: the size of the one before; else None."""
     sized = [atom for atom in atoms if atom.kind == "q"]
     again = any(a.value == "again" for a in atoms)
-    others = [a for a in atoms if a.kind not in ("q", "filler", "glue", "sep") and a.value != "again"]
+    roles = {a.value for a in atoms if a.kind in ("role", "counter") and a.value in _SIZED}
+    others = [
+        a for a in atoms if a.kind not in ("q", "filler", "glue", "sep") and a.value not in ("again", *_SIZED)
+    ]
     with_ = tuple(load_table(language, "selections").get("with", ()))
     before = atoms[atoms.index(sized[0]) - 1].text if again and sized else ""
     opened = plain.startswith(with_) or f"{before} " in with_
-    return sized[0] if opened and not others and len(sized) == 1 and sized[0].value == "length" else None
+    if not opened or others or len(sized) != 1 or sized[0].value != "length" or len(roles) > 1:
+        return None
+    return Edit(amounts=sized, roles=roles or {"side"})

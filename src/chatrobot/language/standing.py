@@ -48,6 +48,8 @@ def by_places(atoms: Sequence[Atom]) -> list[Atom]:
 def _related(atoms: list[Atom], i: int) -> int:
     """Put what lies to the place at `i` in its place; where that is afterwards."""
     _check_the_one(atoms, i)
+    if _turned_to(atoms, i):
+        return i + 1
     start, relation, end, names = _relation(atoms, i)
     if not relation:
         return i
@@ -72,6 +74,18 @@ def _related(atoms: list[Atom], i: int) -> int:
     plain = off is None and relation in ("near", "front")
     atoms[begin:end] = [*put, Atom("place", names[0] if plain else value, said)]
     return begin + 1
+
+
+def _turned_to(atoms: list[Atom], i: int) -> bool:
+    """`Turn towards the sofa` is to face it: put so. Whether it stands there."""
+    start, before = _before(atoms, i, ("facing",))
+    end, _ = _after(atoms, i + 1, ("facing_after",))
+    said = [*atoms[start:i], *atoms[i + 1 : end]] if before else []
+    verbs = [(atom.kind, atom.value) for atom in said if atom.kind == "verb"]
+    if verbs != [("verb", "turn")]:
+        return False
+    atoms[start:end] = [Atom("verb", "face", " ".join(atom.text for atom in said)), atoms[i]]
+    return True
 
 
 def _relation(atoms: Sequence[Atom], i: int) -> tuple[int, str, int, tuple[str, ...]]:
