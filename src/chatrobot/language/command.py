@@ -10,10 +10,10 @@ from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.corrections import CORRECTING
 from chatrobot.language.edits import edited, resized
+from chatrobot.language.figures import figure_asked, with_another_size
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
-from chatrobot.language.last_motion import figure_that_way
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
@@ -27,7 +27,6 @@ from chatrobot.language.selections import (
     names_a_part,
     part_of_before,
     points_at_before,
-    with_another_size,
 )
 from chatrobot.language.sounds import mended
 from chatrobot.language.starting import check_start
@@ -104,11 +103,12 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if until is not None:
         return _until(until, reading)
     check_no_manner(atoms, language)
-    that_way = figure_that_way(atoms, reading.context.dialogue)
-    changed = that_way or of_before(plain, atoms, reading)
+    changed = of_before(plain, atoms, reading)
+    asked = None if changed else figure_asked(atoms, reading.context.dialogue)
+    changed = asked or changed
     if changed is not None:
         overshot = any(a.value == "overshot" for a in atoms)
-        if that_way or is_change_alone(plain, language):
+        if asked or is_change_alone(plain, language):
             return proposed(planned(changed, language), language) or planned(changed, language)
         return replace(planned(changed, language, append=_appends(atoms)), corrects=overshot)
     rest = next((a for a in atoms if a.kind == "flag" and a.value == "complete"), None)

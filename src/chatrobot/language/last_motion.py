@@ -12,12 +12,11 @@ from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.ellipsis import State
 from chatrobot.language.facts import chosen_unit_m
 from chatrobot.language.frames import DIRECTIONS, EXTENTS, SIDES, Frame
-from chatrobot.language.inverse import flipped
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
-from chatrobot.language.tokens import SILENT, Atom, quantity, tokenise
+from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
@@ -112,19 +111,6 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     other_open = not sizes and way in SIDES and told_rad not in (None, math.pi / 2)
     if (size_open and "number" not in said) or (side_open and "uturn" not in said) or other_open:
         raise Unclear("unclear_motion", frame.text)
-
-
-def figure_that_way(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
-    """`Clockwise`, said alone after a circle or a shape: the figure that way round; None for anything else."""
-    said, last = [a for a in atoms if a.kind not in SILENT], dialogue.last_motion
-    if [a.kind for a in said] != ["rot"] or last is None or last.plan is None:
-        return None
-    turning = [step for step in last.plan.steps if isinstance(step, (Turn, Arc))]
-    turned_rad = sum((step.angle_rad or 0.0) * (1 if step.left else -1) for step in turning)
-    if len(last.plan.steps) == len([s for s in turning if isinstance(s, Turn)]) or abs(turned_rad) < 6.0:
-        return None
-    is_left = turned_rad > 0.0
-    return [step if is_left == (said[0].value == "left") else flipped(step) for step in last.plan.steps]
 
 
 def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:

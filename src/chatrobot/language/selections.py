@@ -314,22 +314,3 @@ def check_no_manner(atoms: Sequence[Atom], language: str) -> None:
         told = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms[:i])
         if atom.value == "again" and atom.text in words and ends and told:
             raise Unclear("unclear_motion", atom.text)
-
-
-_SIZED = ("side", "radius", "diameter")
-
-
-def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Edit | None:
-    """`Now with 50 cm`, `the same with 50 cm`, `with a radius of 1 m`: the size of the one before; else None."""
-    sized = [atom for atom in atoms if atom.kind == "q"]
-    again = any(a.value == "again" for a in atoms)
-    roles = {a.value for a in atoms if a.kind in ("role", "counter") and a.value in _SIZED}
-    others = [
-        a for a in atoms if a.kind not in ("q", "filler", "glue", "sep") and a.value not in ("again", *_SIZED)
-    ]
-    with_ = tuple(load_table(language, "selections").get("with", ()))
-    before = atoms[atoms.index(sized[0]) - 1].text if again and sized else ""
-    opened = plain.startswith(with_) or f"{before} " in with_
-    if not opened or others or len(sized) != 1 or sized[0].value != "length" or len(roles) > 1:
-        return None
-    return Edit(amounts=sized, roles=roles or {"side"})

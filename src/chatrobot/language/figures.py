@@ -1,0 +1,63 @@
+"""What changes the circle or the shape before: `with 50 cm sides`, `with a radius of 1 m`, `clockwise`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from chatrobot.language.context import Dialogue
+from chatrobot.language.data_files import load_table
+from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import resized
+from chatrobot.language.inverse import flipped
+from chatrobot.language.tokens import SILENT, Atom
+from chatrobot.plan.steps import Arc, Drive, Step, Turn
+
+_SIZED = ("side", "radius", "diameter")
+_ROUND_RAD = 6.0
+"""What turns by less in all is no closed figure."""
+
+
+def with_another_size(plain: str, atoms: Sequence[Atom], language: str) -> Edit | None:
+    """`Now with 50 cm`, `the same with 50 cm`, `with a radius of 1 m`: the size of the one before; else None."""
+    size = _size(atoms)
+    if size is None:
+        return None
+    with_ = tuple(load_table(language, "selections").get("with", ()))
+    again = any(atom.value == "again" for atom in atoms)
+    before = atoms[list(atoms).index(size.amounts[0]) - 1].text if again else ""
+    return size if plain.startswith(with_) or f"{before} " in with_ else None
+
+
+def _size(atoms: Sequence[Atom]) -> Edit | None:
+    """One length, and nothing but what of a figure it is the length of."""
+    sized = [atom for atom in atoms if atom.kind == "q"]
+    roles = {atom.value for atom in atoms if atom.kind in ("role", "counter") and atom.value in _SIZED}
+    beside = ("q", "filler", "glue", "sep")
+    others = [a for a in atoms if a.kind not in beside and a.value not in ("again", *_SIZED)]
+    if others or len(sized) != 1 or sized[0].value != "length" or len(roles) > 1:
+        return None
+    return Edit(amounts=sized, roles=roles or {"side"})
+
+
+def figure_asked(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
+    """What `clockwise` or `radius 1 m`, said alone after a figure, may mean: to be asked about; else None."""
+    said, last = [atom for atom in atoms if atom.kind not in SILENT], dialogue.last_motion
+    if last is None or last.plan is None or not _is_figure(last.plan.steps):
+        return None
+    steps = list(last.plan.steps)
+    if [atom.kind for atom in said] == ["rot"]:
+        is_left = said[0].value == "left"
+        return steps if is_left == (_turned_rad(steps) > 0.0) else [flipped(step) for step in steps]
+    size = _size(atoms)
+    named = any(atom.kind in ("role", "counter") for atom in said)
+    return resized(steps, size) if size is not None and named else None
+
+
+def _is_figure(steps: Sequence[Step]) -> bool:
+    drives = any(isinstance(step, (Arc, Drive)) for step in steps)
+    return drives and abs(_turned_rad(steps)) > _ROUND_RAD
+
+
+def _turned_rad(steps: Sequence[Step]) -> float:
+    turning = [step for step in steps if isinstance(step, (Turn, Arc))]
+    return sum((step.angle_rad or 0.0) * (1 if step.left else -1) for step in turning)
