@@ -103,3 +103,15 @@ def test_a_point_beside_a_ring_is_on_it_or_so_far_out() -> None:
     assert middle_of(RING) == (4.0, 2.0)
     assert point_beside(RING, (9.0, 2.0)) == pytest.approx((5.0, 2.0))
     assert point_beside(RING, (4.0, -7.0), 0.5) == pytest.approx((4.0, 0.5))
+
+
+@pytest.mark.parametrize(
+    "text", ["朝沙发走一米", "往沙发方向走一米", "朝着沙发慢慢走一米", "drive 1 m towards the sofa"]
+)
+def test_towards_a_place_it_drives_as_far_as_told(text: str) -> None:
+    assert goal(text) == (0.0, 3.0)
+
+
+@pytest.mark.parametrize("text", ["往沙发退一米", "往沙发左移一米"])
+def test_backwards_or_sideways_it_drives_towards_no_place(text: str) -> None:
+    assert meant(text).plan is None

@@ -48,7 +48,7 @@ def by_places(atoms: Sequence[Atom]) -> list[Atom]:
 def _related(atoms: list[Atom], i: int) -> int:
     """Put what lies to the place at `i` in its place; where that is afterwards."""
     _check_the_one(atoms, i)
-    if _turned_to(atoms, i):
+    if _turned_to(atoms, i) or _headed_to(atoms, i):
         return i + 1
     start, relation, end, names = _relation(atoms, i)
     if not relation:
@@ -86,6 +86,27 @@ def _turned_to(atoms: list[Atom], i: int) -> bool:
         return False
     atoms[start:end] = [Atom("verb", "face", " ".join(atom.text for atom in said)), atoms[i]]
     return True
+
+
+def _headed_to(atoms: list[Atom], i: int) -> bool:
+    """朝电视走三十厘米: put as where the verb stands before the place. Whether it stands there."""
+    start, found = _before(atoms, i, ("heading",))
+    end = i + 1
+    while found and end < len(atoms) and atoms[end].kind != "q" and atoms[end].kind in _BESIDE_PLACE:
+        end += 1
+    said = atoms[i + 1 : end]
+    far = atoms[end] if end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("q", "length") else None
+    goes = any(atom.kind == "pace" or _GOES.get(atom.value) == "go" for atom in said)
+    if far is None or not goes or any(atom.kind == "dir" and atom.value != "forward" for atom in said):
+        return False
+    text = " ".join(atom.text for atom in atoms[start : end + 1])
+    kept = [atom for atom in said if atom.kind == "pace"]
+    place = Atom("place", _MARK.join(("towards", f"{far.number:g}", atoms[i].value)), text)
+    atoms[start : end + 1] = [Atom("verb", "go", text), place, *kept]
+    return True
+
+
+_BESIDE_PLACE = frozenset({"glue", "flag", "verb", "dir", "pace", "filler"})
 
 
 def _relation(atoms: Sequence[Atom], i: int) -> tuple[int, str, int, tuple[str, ...]]:
