@@ -60,8 +60,8 @@ def test_it_faces_what_the_map_has_there() -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["turn the sofa", "turn left towards the sofa", "drive until you see a wall, then face the sofa", "don't face the sofa",
-     "is the sofa facing you?", "the sofa faces the window"],
+    ["turn the sofa", "turn left towards the sofa", "drive until you see a wall, then face the sofa",
+     "don't face the sofa", "is the sofa facing you?", "the sofa faces the window"],
 )  # fmt: skip
 def test_what_is_no_order_to_face_it_turns_nothing(text: str) -> None:
     assert meant(text).plan is None
