@@ -229,3 +229,21 @@ def test_a_place_inside_an_obstacle_is_not_called_reached(tmp_path: Path) -> Non
     done = talk.session.do("go ahead")
     assert (done.outcome, done.pose.x_m) == ("completed", pytest.approx(1.45, abs=0.02))
     assert talk.session.do("去桌子").reply.startswith("那里被“table”挡住")
+
+
+def test_what_is_said_behind_a_text_that_is_asked_about_waits_for_the_question() -> None:
+    talk = Talk()
+    for text in ("make a square with 20 cm sides to the left", "clockwise", "yes", "with 30 cm sides"):
+        talk.session.say(text)
+    talk.pump_until(lambda: len(talk.results()) == 4)
+    turns = [event.turn for event in talk.events if isinstance(event, Interpreted)]
+    assert turns == [1, 2, 3, 4]
+    assert [round(talk.results()[turn].path_m, 1) for turn in turns] == [0.8, 0.0, 0.8, 1.2]
+
+
+def test_what_nobody_understands_is_answered_before_its_turn() -> None:
+    talk = Talk()
+    for text in ("make a square with 20 cm sides", "with 30 cm sides", "flurb the gizmo"):
+        talk.session.say(text)
+    talk.pump_until(lambda: len(talk.results()) == 3)
+    assert [event.turn for event in talk.events if isinstance(event, Result)] == [3, 1, 2]

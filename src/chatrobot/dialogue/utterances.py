@@ -252,10 +252,10 @@ class EarlyAnswers:
             return None
         for utterance in waiting:
             meant = self._look_at(utterance)
-            if meant is None or _teaches(meant):
-                return None
+            if meant is None or _teaches(meant) or meant.proposal:
+                return None  # what follows may be about it
             asks_back = meant.outcome == "unclear" and meant.code in NOT_UNDERSTOOD
-            if asks_back and not (meant.proposal or meant.corrects):
+            if asks_back and not meant.corrects:
                 return utterance
         return None
 
@@ -263,7 +263,10 @@ class EarlyAnswers:
         """What it would mean now; None for what is no text to be understood."""
         if utterance.turn not in self._meant:
             is_text = utterance.kind == "text" and not self._is_about_a_program(utterance.text)
-            self._meant[utterance.turn] = self._understanding.interpret(utterance.text) if is_text else None
+            under_way = self._requests.under_way
+            self._meant[utterance.turn] = (
+                self._understanding.interpret(utterance.text, under_way) if is_text else None
+            )
         return self._meant[utterance.turn]
 
     def _is_about_a_program(self, text: str) -> bool:
