@@ -44,6 +44,10 @@ def _check_known(frame: Frame, state: State) -> None:
     back = frame.direction == "back" and not frame.has_extent  # `go back there`: to some place
     if "there" in frame.flags and frame.verb not in STILL and (back or not told):
         raise Unclear("which_place", frame.text)
+    if "overshot" in frame.flags and not (
+        frame.q or frame.verb
+    ):  # `too far left`: where it is, not where to go
+        raise Unclear("unclear_motion", frame.text)
     if "until" in frame.flags and not frame.has_extent and frame.verb != "face":
         raise Unclear("condition", frame.text)
 

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import bisect
 import itertools
+import math
 from collections.abc import Callable, Sequence
 
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 _CHANGE = 1.07
 """Small enough that no limit or sign turns over, and nothing that is rounded hides it."""
@@ -82,6 +83,7 @@ def check_heeded(
         return
     _check_clauses(atoms, steps, read)
     _check_no_turn(atoms, steps)
+    _check_sides(atoms, steps)
     _check_flags(atoms, steps, read, follows=follows)
     asked = [(i, changed) for i, atom in enumerate(atoms) if (changed := _changed(atom, atoms)) is not None]
     asked = [(i, changed) for i, changed in asked if not _is_adverb(atoms, i)]
@@ -127,6 +129,18 @@ def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
     )
     if denied is not None and not told and any(isinstance(step, Turn) for step in steps):
         raise Unclear("unclear_motion", denied.text)
+
+
+def _check_sides(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
+    """Ask back where a figure bends to one side only though both are named: `two circles, one left one right`."""
+    ways = [atom for atom in atoms if atom.kind in ("dir", "rot") and atom.value in _OTHER_SIDE]
+    drawn = any(atom.kind == "shape" for atom in atoms) and all(
+        isinstance(s, (Drive, Turn, Arc)) for s in steps
+    )
+    bends = {step.left for step in steps if isinstance(step, (Turn, Arc))}
+    slides = any(isinstance(step, Drive) and math.sin(step.direction_rad) for step in steps)
+    if drawn and len({atom.value for atom in ways}) == 2 and len(bends) == 1 and not slides:
+        raise Unclear("unclear_motion", ways[-1].text)
 
 
 def _check_flags(

@@ -30,6 +30,7 @@ class Measures:
     rounds: float = 1.0
     left: bool = True
     side_said: bool = False
+    both_sides: bool = False
     back: bool = False
     sliding: bool = False
     angle_rad: float | None = None
@@ -109,6 +110,7 @@ def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: A
 def _take_side(found: Measures, head: Frame, part: Frame) -> None:
     if {"left_right", "right_left"} & part.flags:
         found.left, found.side_said = "left_right" in part.flags, True
+        found.both_sides = True
     side = part.rot or part.direction2 or (part.direction if part.direction in SIDES else "")
     if not side and part.direction in DIAGONALS.values():
         side = part.direction.split("_")[1]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from chatrobot.language.actions import act
 from chatrobot.language.drawing import drawn
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import GO, SIDES, STILL, TURN, Frame
 from chatrobot.language.manner import Pace
-from chatrobot.language.measures import measured, whole_number
+from chatrobot.language.measures import Measures, measured, whole_number
 from chatrobot.language.repeats import is_repetition
 from chatrobot.language.shape_sides import tells_side
 from chatrobot.plan.steps import Step
@@ -43,10 +45,30 @@ def draw(frames: list[Frame], i: int, pace: Pace) -> tuple[int, list[Step]]:
     if spelt is not None:
         return end, spelt
     measures = measured(parts, pace)
+    if measures.both_sides and _is_two_of_a_kind(measures):
+        one = replace(measures, times=1, rounds=1.0)
+        return end, [*drawn(one), *drawn(replace(one, left=not one.left))]
     if parts[0].shape != "circle":
         measures.times *= whole_number(measures.rounds)
     steps = drawn(measures)
     return end, steps * measures.times
+
+
+def _is_two_of_a_kind(measures: Measures) -> bool:
+    """`Two circles, first left then right`: one each."""
+    return measures.times * measures.rounds == 2.0 and measures.shape.startswith(_ONE_SIDED)
+
+
+_ONE_SIDED = (
+    "circle",
+    "square",
+    "rectangle",
+    "polygon",
+    "triangle",
+    "half_circle",
+    "quarter_circle",
+    "spiral",
+)
 
 
 def _is_part(head: Frame, frame: Frame) -> bool:

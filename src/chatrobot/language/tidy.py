@@ -23,6 +23,7 @@ def tidy(atoms: Sequence[Atom]) -> list[Atom]:
     settled = [settled_word(atoms, i) for i in range(len(atoms))]
     if any(atom.kind == "shape" for atom in settled):
         _check_sizes(settled)
+        settled = _first_side(settled)
         settled = [_times_sign(settled, i) for i in range(len(settled))]
     else:
         settled = _radii(settled)
@@ -42,6 +43,24 @@ def _check_sizes(atoms: Sequence[Atom]) -> None:
             if size and drawn and drawn not in _COUNTED and not counts_sides:
                 raise Unclear("no_unit", atom.text)
             drawn = ""
+
+
+def _first_side(atoms: Sequence[Atom]) -> list[Atom]:
+    """`1 m by 50 cm, the short side first`: the two lengths in that order."""
+    out = list(atoms)
+    sizes = [i for i, atom in enumerate(out) if (atom.kind, atom.value) == ("q", "length")]
+    for i, atom in enumerate(out):
+        before = i - 1
+        while before > 0 and out[before].kind == "glue":
+            before -= 1
+        beside = [at for at in (before, next_real(out, i + 1)) if is_kind(out, at, "flag", "first")]
+        if len(sizes) != 2 or atom.kind != "role" or atom.value not in ("long", "short") or not beside:
+            continue
+        first, second = sizes
+        if (out[first].number > out[second].number) != (atom.value == "long"):
+            out[first], out[second] = out[second], out[first]
+        out[i] = out[beside[0]] = Atom("glue", "x", atom.text)
+    return out
 
 
 def _radii(atoms: Sequence[Atom]) -> list[Atom]:
