@@ -281,8 +281,12 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
                 atom.kind == "q" and atom.value in EXTENTS
             ):
                 raise Unclear("unknown_part", " ".join(a.text for a in atoms[i : end + 1]))
-            if atom.kind not in ("glue", "filler") and not scope.add(atom):
-                break
+            if (
+                atom.kind not in ("glue", "filler")
+                and not scope.add(atom)
+                and atom.kind not in ("dir", "rot")
+            ):
+                break  # `don't back up to the right` denies both ways
             if atom.text == "but":
                 break
             end += 1

@@ -16,6 +16,7 @@ from chatrobot.language.unclear import Unclear
 
 _SAME = ("length", "angle", "time")
 _BEHIND_AMOUNT = frozenset({"dir", "rot", "glue", "filler"})
+_SENSES = frozenset({"left", "right"})
 _TOLERANCE = 0.03
 """三尺 is a metre to three parts in a hundred, whatever a foot is held to be."""
 
@@ -54,17 +55,39 @@ def without_told_before(frames: Sequence[Frame]) -> list[Frame]:
     said = [*frames[1:], None]
     kept = [frame for frame, after in zip(frames, said) if after is None or not _says_again(frame, after)]
     return [
-        frame for before, frame in zip([None, *kept], kept) if before is None or not _points_at(before, frame)
+        frame
+        for before, frame in zip([None, *kept], kept)
+        if before is None or not (_points_at(before, frame) or _is_its_sense(before, frame))
     ]
 
 
 def _says_again(frame: Frame, after: Frame) -> bool:
-    way = frame.direction or frame.rot
-    lone = bool(way) and frame == Frame(
-        direction=frame.direction, rot=frame.rot, texts=frame.texts, joined=frame.joined, opens=frame.opens
-    )
+    lone, way = _is_lone(frame), frame.direction or frame.rot
     same = way in (after.direction, after.rot) and bool(after.verb) and after.has_extent
     return (lone and after.joined == "strong" and same) or _tells_way(frame, after)
+
+
+def _is_its_sense(before: Frame, frame: Frame) -> bool:
+    """`Turn right 90. Clockwise!`: which way round the motion before is, and no motion of its own.
+
+    Raises:
+        Unclear: where it is the other way round.
+    """
+    if not (
+        frame.rot and _is_lone(frame) and (before.has_extent or "number" in before.q)
+    ) or frame.joined not in ("weak", "strong"):
+        return False
+    way = before.rot or before.direction
+    if way in _SENSES and way != frame.rot:
+        raise Unclear("contradiction", f"{before.text}, {frame.text}")
+    return way == frame.rot
+
+
+def _is_lone(frame: Frame) -> bool:
+    """Whether it tells a way and nothing else."""
+    return bool(frame.direction or frame.rot) and frame == Frame(
+        direction=frame.direction, rot=frame.rot, texts=frame.texts, joined=frame.joined, opens=frame.opens
+    )
 
 
 def _tells_way(frame: Frame, after: Frame) -> bool:
