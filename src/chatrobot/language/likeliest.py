@@ -25,7 +25,7 @@ from chatrobot.language.beside import (
     odds_beside_asides,
     refers,
 )
-from chatrobot.language.frames import STILL
+from chatrobot.language.frames import GO, TURN
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.pared import mistyped, pared
@@ -250,13 +250,14 @@ def _is_clearly_told(rest: _Rest, problem: Unclear, told: Sequence[Read], odds: 
 def _may_order(read: Read) -> bool:
     """`drive to the kitchen`, where nobody knows a kitchen: it is asked about, however much it sounds like an aside."""
     signs = [sign for sign in read.clause.signs if sign.label != "opening"]
-    verbs = [at for at, sign in enumerate(signs) if sign.label == "VERB" and not _is_still(sign)]
-    return bool(verbs) and read.log_odds >= (NO_ORDER if verbs[0] else ORDER)
+    says = [_verb(sign) for sign in signs]
+    least = ORDER if says[:1] and says[0] in GO else NO_ORDER
+    return any(verb in GO or verb in TURN for verb in says) and read.log_odds >= least
 
 
-def _is_still(sign: Sign) -> bool:
+def _verb(sign: Sign) -> str:
     meaning = lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))
-    return meaning[0][1] in STILL
+    return meaning[0][1] if sign.label == "VERB" else ""
 
 
 def _is_no_part(read: Read, reads: Sequence[Read], odds: Mapping[int, Aside]) -> bool:
