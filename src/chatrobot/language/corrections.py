@@ -26,6 +26,8 @@ _ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不�
 _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
 _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
+_FAR_M = 10.0
+"""A bare number of metres above it is asked about."""
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 MEANT = "meant"
@@ -195,10 +197,16 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
 
 
 def _in_the_unit_of(before: Atom, number: Atom) -> Atom:
-    """`2 metres, no, make it 3`: the unit was said already."""
+    """`2 metres, no, make it 3`: the unit was said already; but not `half a metre, no, make it 75`.
+
+    Raises:
+        Unclear: where it would be far.
+    """
     factor = _UNIT_FACTOR.fullmatch(before.role)
     if number.kind != "q" or number.value != "number" or before.value == "number" or factor is None:
         return number
+    if before.value == "length" and number.number * float(factor[0]) > max(_FAR_M, before.number):
+        raise Unclear("no_unit", number.text)
     return quantity(before.value, number.number * float(factor[0]), number.text, before.role)
 
 
@@ -281,8 +289,12 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
                 atom.kind == "q" and atom.value in EXTENTS
             ):
                 raise Unclear("unknown_part", " ".join(a.text for a in atoms[i : end + 1]))
-            if atom.kind not in ("glue", "filler") and not scope.add(atom):
-                break
+            if (
+                atom.kind not in ("glue", "filler")
+                and not scope.add(atom)
+                and atom.kind not in ("dir", "rot")
+            ):
+                break  # `don't back up to the right` denies both ways
             if atom.text == "but":
                 break
             end += 1

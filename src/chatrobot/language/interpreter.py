@@ -50,7 +50,7 @@ from chatrobot.language.place_questions import answer_about_places, with_spoken_
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
-from chatrobot.language.rephrase import is_item, rephrased, with_breaks
+from chatrobot.language.rephrase import in_full, is_item, rephrased, with_breaks
 from chatrobot.language.run_on import set_apart
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
@@ -102,7 +102,7 @@ class OfflineInterpreter:
         return replace(meant, reply=naming_points(meant.reply, context)) if said != text else meant
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        said = with_told_apart(normalise(text), language)
+        said = with_told_apart(in_full(normalise(text), language), language)
         text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
         meant = self._of_held(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.core.event import Proposal
-from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
+from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, talk_in
 from chatrobot.language.bare_order import bare_orders
 from chatrobot.language.beside import (
     MAYBE_ASIDE,
@@ -25,11 +25,13 @@ from chatrobot.language.beside import (
     odds_beside_asides,
     refers,
 )
+from chatrobot.language.frames import GO, TURN
 from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.lexicon import lexicon
 from chatrobot.language.pared import mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.set_off import odds_without, set_off
-from chatrobot.language.signs import Names, clauses_of
+from chatrobot.language.signs import Names, Sign, clauses_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
@@ -39,7 +41,7 @@ TALK, APART = 1.5, 3.0
 NO_MOTION = -4.0
 """A clause without any word of motion is sure talk below these odds, whatever its words are."""
 NO_ORDER = 3.5
-"""A clause without an amount may be left out of a proposal below these odds."""
+"""A clause without an amount may be left out below these odds."""
 MOST_CLAUSES, MOST_PARTS = 12, 3
 """So many clauses are looked at one by one, and so many parts are left out of what is proposed."""
 FAR_M = 10.0
@@ -115,8 +117,13 @@ def likeliest(
         return _with_unit(plain, problem.part, language, read, unit)
     rest = _Rest(plain, list(reads))
     odds = {} if asks else asides(reads)
-    told = [read for read in reads if is_sure_aside(read.clause, odds) and _is_no_part(read, reads, odds)]
-    for clause in [clause for clause in reads if clause in (*apart, *told) or _is_sure_talk(clause, best)]:
+    told = [
+        read
+        for read in reads
+        if is_sure_aside(read.clause, odds) and not _may_order(read) and _is_no_part(read, reads, odds)
+    ]
+    talk = [*apart, *told, *([] if asks else talk_in(reads))]
+    for clause in [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]:
         rest.leave_out(clause)
     is_sure = bool(apart) or not problem.refused or _is_clearly_told(rest, problem, told, odds)
     is_sure &= not any_may_bear(reads, [read for read in reads if read not in (*rest.kept, *apart)])
@@ -238,6 +245,19 @@ def _is_clearly_told(rest: _Rest, problem: Unclear, told: Sequence[Read], odds: 
     squeezed = "".join(problem.part.split())
     refused = [read for read in told if squeezed in "".join(rest.said(read).split())]
     return bool(told) and all(odds[read.clause.start].odds >= SURELY_NOT_MEANT for read in refused)
+
+
+def _may_order(read: Read) -> bool:
+    """`drive to the kitchen`, where nobody knows a kitchen: it is asked about, however much it sounds like an aside."""
+    signs = [sign for sign in read.clause.signs if sign.label != "opening"]
+    says = [_verb(sign) for sign in signs]
+    least = ORDER if says[:1] and says[0] in GO else NO_ORDER
+    return any(verb in GO or verb in TURN for verb in says) and read.log_odds >= least
+
+
+def _verb(sign: Sign) -> str:
+    meaning = lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))
+    return meaning[0][1] if sign.label == "VERB" else ""
 
 
 def _is_no_part(read: Read, reads: Sequence[Read], odds: Mapping[int, Aside]) -> bool:

@@ -124,6 +124,14 @@ def rewritings(text: str, language: str) -> Iterator[tuple[int, str, str]]:
             yield number, found[0], text
 
 
+def in_full(text: str, language: str) -> str:
+    """`text` (normalised) with words in full that people type short: `ur on my foot`, `fwd 1 m k`."""
+    for rule in _rules(language, "short"):
+        text = rule.applied(text)
+    written, pattern = _contractions(language)
+    return pattern.sub(lambda found: written[found[0]], text)
+
+
 def _spelled_out(text: str, language: str) -> str:
     text = _of_wishes(text, language)
     text = without_numbers(_without_heading(text, language))

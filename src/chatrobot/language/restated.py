@@ -15,7 +15,9 @@ from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
 _SAME = ("length", "angle", "time")
+_SPEEDS = frozenset({"speed", "rate"})
 _BEHIND_AMOUNT = frozenset({"dir", "rot", "glue", "filler"})
+_SENSES = frozenset({"left", "right"})
 _TOLERANCE = 0.03
 """三尺 is a metre to three parts in a hundred, whatever a foot is held to be."""
 
@@ -35,8 +37,8 @@ def without_restated(atoms: Sequence[Atom]) -> list[Atom]:
     out: list[Atom] = []
     i = 0
     while i < len(atoms):
-        told = _last_amount(out)
-        again = _again(out, told, atoms, i) if told is not None else None
+        again, said = _next_amount(atoms, i)
+        told = _told(out, atoms, i, again, said) if again is not None else None
         if told is None or again is None:
             out.append(atoms[i])
             i += 1
@@ -54,17 +56,39 @@ def without_told_before(frames: Sequence[Frame]) -> list[Frame]:
     said = [*frames[1:], None]
     kept = [frame for frame, after in zip(frames, said) if after is None or not _says_again(frame, after)]
     return [
-        frame for before, frame in zip([None, *kept], kept) if before is None or not _points_at(before, frame)
+        frame
+        for before, frame in zip([None, *kept], kept)
+        if before is None or not (_points_at(before, frame) or _is_its_sense(before, frame))
     ]
 
 
 def _says_again(frame: Frame, after: Frame) -> bool:
-    way = frame.direction or frame.rot
-    lone = bool(way) and frame == Frame(
-        direction=frame.direction, rot=frame.rot, texts=frame.texts, joined=frame.joined, opens=frame.opens
-    )
+    lone, way = _is_lone(frame), frame.direction or frame.rot
     same = way in (after.direction, after.rot) and bool(after.verb) and after.has_extent
     return (lone and after.joined == "strong" and same) or _tells_way(frame, after)
+
+
+def _is_its_sense(before: Frame, frame: Frame) -> bool:
+    """`Turn right 90. Clockwise!`: which way round the motion before is, and no motion of its own.
+
+    Raises:
+        Unclear: where it is the other way round.
+    """
+    if not (
+        frame.rot and _is_lone(frame) and (before.has_extent or "number" in before.q)
+    ) or frame.joined not in ("weak", "strong"):
+        return False
+    way = before.rot or before.direction
+    if way in _SENSES and way != frame.rot:
+        raise Unclear("contradiction", f"{before.text}, {frame.text}")
+    return way == frame.rot
+
+
+def _is_lone(frame: Frame) -> bool:
+    """Whether it tells a way and nothing else."""
+    return bool(frame.direction or frame.rot) and frame == Frame(
+        direction=frame.direction, rot=frame.rot, texts=frame.texts, joined=frame.joined, opens=frame.opens
+    )
 
 
 def _tells_way(frame: Frame, after: Frame) -> bool:
@@ -105,19 +129,26 @@ def _last_amount(out: Sequence[Atom]) -> Atom | None:
     return out[at] if at >= 0 and out[at].kind == "q" and _dimension(out[at]) in _SAME else None
 
 
-def _again(out: Sequence[Atom], last: Atom, atoms: Sequence[Atom], i: int) -> int | None:
-    """Where, from `i` on, the last amount of `out` is told once more."""
+def _next_amount(atoms: Sequence[Atom], i: int) -> tuple[int | None, bool]:
+    """Where an amount begins behind marks and light words from `i` on, and whether these say that it is one again."""
     end, said = i, False
     while end < len(atoms) and (atoms[end].kind in ("glue", "filler") or _is_apart(atoms[end])):
         said = said or atoms[end].text in _words()
         end += 1
-    if end == len(atoms) or atoms[end].kind != "q" or _dimension(atoms[end]) != _dimension(last):
+    return (end if end < len(atoms) and atoms[end].kind == "q" else None), said
+
+
+def _told(out: Sequence[Atom], atoms: Sequence[Atom], i: int, again: int, said: bool) -> Atom | None:
+    """The amount that is told once more at `again`: the last one, or the last speed, wherever that was told."""
+    dimension = _dimension(atoms[again])
+    if said and dimension in _SPEEDS:
+        return next((atom for atom in reversed(out) if atom.kind == "q" and atom.value == dimension), None)
+    told = _last_amount(out)
+    if told is None or _dimension(told) != dimension:
         return None
-    if said:
-        return end
-    apart = any(atom.value == "strong" for atom in atoms[i:end] if atom.kind == "sep")
-    is_next = out[-1] is last and not apart
-    return end if is_next and _is_another_unit(last, atoms, i, end) else None
+    apart = any(atom.value == "strong" for atom in atoms[i:again] if atom.kind == "sep")
+    is_next = out[-1] is told and not apart
+    return told if said or (is_next and _is_another_unit(told, atoms, i, again)) else None
 
 
 def _is_another_unit(before: Atom, atoms: Sequence[Atom], i: int, end: int) -> bool:

@@ -86,43 +86,22 @@ def _cover(
     """Dynamic programming from the end: the fewest words, unknown units only where nothing else fits."""
     count = len(units)
     name_length = max((len(key) for key in names), default=0)
-    named = [
-        (at, at + len(key))
-        for key in names
-        if len(key) > 1
-        for at in range(count)
-        if units[at : at + len(key)] == key
-    ]
+    named = _places_of(units, names)
     best = [0.0] * (count + 1)
     choice: list[tuple[int, Meaning | None]] = [(0, None)] * count
     for start in range(count - 1, -1, -1):
         unit = units[start]
         cost = _WORD if unit[0].isdigit() else _UNKNOWN
         best[start], choice[start] = best[start + 1] + cost, (start + 1, None)
-        for length in range(1, max(words.longest.get(unit, 0), name_length) + 1):
-            end = start + length
-            if end > count:
-                break
+        longest = max(words.longest.get(unit, 0), name_length)
+        for end in range(start + 1, min(start + longest, count) + 1):
             key = units[start:end]
             if key not in names and any(start < begin < end < stop for begin, stop in named):
                 continue  # `to the front` of `drive to the front door`, where the front door is a place
-            meaning = names.get(key) or words.words.get(key)
-            price = _NAMED if key in names else _WORD
-            if meaning is not None and meaning[0][0] == "unknown":
-                price = _BEARING
-            if meaning is None:
-                meaning, price = words.guesses.get(key), guess
-            if (
-                key[-1] == "点"
-                and end < count
-                and units[end] in _DIGITS
-                and length > 1
-                and units[start] == "一"
-            ):
-                continue  # 一点二米 is a number, not 一点
-            if key[-1] in _MEASURED and end < count and _is_digit(units[end]) and _is_length(meaning):
-                continue  # 长一米宽半米: the width is that of what follows
-            if meaning is not None and best[end] + price <= best[start]:
+            meaning, price = _meaning_and_price(key, words, names, guess)
+            if meaning is None or (end < count and _goes_on(key, units[end], meaning)):
+                continue
+            if best[end] + price <= best[start]:
                 best[start], choice[start] = best[end] + price, (end, meaning)
     covered = []
     at = 0
@@ -133,8 +112,34 @@ def _cover(
     return covered
 
 
-def _is_length(meaning: Meaning | None) -> bool:
-    return meaning is not None and meaning[0][0] == "unit_length"
+def _places_of(units: Key, names: dict[Key, Meaning]) -> list[tuple[int, int]]:
+    """Where each name of several words begins and ends."""
+    return [
+        (at, at + len(key))
+        for key in names
+        if len(key) > 1
+        for at in range(len(units))
+        if units[at : at + len(key)] == key
+    ]
+
+
+def _meaning_and_price(
+    key: Key, words: Lexicon, names: dict[Key, Meaning], guess: float
+) -> tuple[Meaning | None, float]:
+    """What these units mean as one word, and what it costs to read them so."""
+    meaning = names.get(key) or words.words.get(key)
+    if meaning is None:
+        return words.guesses.get(key), guess
+    if meaning[0][0] == "unknown":
+        return meaning, _BEARING
+    return meaning, _NAMED if key in names else _WORD
+
+
+def _goes_on(key: Key, after: str, meaning: Meaning) -> bool:
+    """Whether a word ends in what begins the number behind it: 一点|二米, or the width of 长一米宽|半米."""
+    if key[-1] == "点" and after in _DIGITS and len(key) > 1 and key[0] == "一":
+        return True
+    return key[-1] in _MEASURED and _is_digit(after) and meaning[0][0] == "unit_length"
 
 
 def _is_digit(unit: str) -> bool:
