@@ -50,6 +50,7 @@ from chatrobot.language.place_questions import answer_about_places, with_spoken_
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
+from chatrobot.language.remembering import read_named_here
 from chatrobot.language.rephrase import is_item, rephrased, with_breaks
 from chatrobot.language.run_on import set_apart
 from chatrobot.language.selections import wants_part
@@ -211,6 +212,11 @@ class OfflineInterpreter:
             answer_about_places(plain, language, context)
             or read_naming(plain, language, context)
             or read_putting(plain, language, context)
+            or read_named_here(
+                plain,
+                Reading(language, context, self._profile),
+                lambda part: self._steps(part, language, context),
+            )
             or told_what_it_would_do(plain, language, lambda said: self._meant(said, language, context))
         )
         if told is not None:
