@@ -47,6 +47,7 @@ from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, with_spoken_place
+from chatrobot.language.pointing import beside_reference
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
@@ -160,6 +161,9 @@ class OfflineInterpreter:
 
         names, plain = names_in(reading.context), normalise(text)
         unit = unit_after(reading.context)
+        pointed = beside_reference(plain, read_acts(plain, names), read, read_anew)
+        if pointed is not None:
+            return pointed
         found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
         return found or set_apart(plain, names, reading.language, problem, read)
 
