@@ -118,7 +118,7 @@ def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
     unit_m = unit_m if isinstance(step, Drive) else 0.0
     if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:
         return quantity("time", amount.number, amount.text)
-    if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
+    if amount.value != "number" or not (unit_m or isinstance(step, (Turn, Arc))):
         return amount
     name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
     return quantity(name, amount.number * factor, amount.text)
