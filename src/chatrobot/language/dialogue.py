@@ -9,9 +9,10 @@ from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
-from chatrobot.language.frames import GO, Frame
-from chatrobot.language.inverse import inverse, is_sideways
-from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
+from chatrobot.language.edits import mirrored
+from chatrobot.language.frames import GO, SIDES, Frame
+from chatrobot.language.inverse import flipped, inverse, is_sideways
+from chatrobot.language.last_motion import check_answers_nothing, motion_meant, shapes_said, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
@@ -23,6 +24,7 @@ from chatrobot.language.undo import FAR_RAD, NEAR_M, PACES, Walked, all_taken_ba
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
+_ONE_MORE = frozenset({"again", "more", "extra", "same_amount"})
 _COUNTED = frozenset({"both", "two", "three", "four", "five", "six", "2", "3", "4", "5", "6"})
 """What counts the turns that are meant."""
 
@@ -49,6 +51,9 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     more = _slid_back(whole, context, pace) or _more_of_before(whole, context, pace)
     if more is not None:
         return more
+    alike = _of_the_same_shape(whole, context)
+    if alike is not None:
+        return alike
     if "again" in whole.flags:
         _check_not_counted(whole, frames)
     if {"again", "more"} <= whole.flags and any("another" in frame.texts for frame in frames):
@@ -255,6 +260,25 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
     if on and ("bit" in whole.flags or alone) and whole.flags <= {"bit", "more"} and not whole.roles:
         return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
     return None
+
+
+def _of_the_same_shape(whole: Frame, context: Context) -> list[Step] | None:
+    """`Another half circle to the right`, `the same arc`: as large as the one before, which was the whole motion."""
+    last = context.dialogue.last_motion
+    if last is None or last.plan is None or whole.q or whole.place or is_correction(last):
+        return None
+    if not _ONE_MORE & whole.flags or whole.flags - _ONE_MORE - {"other_way", "instead"}:
+        return None
+    steps, side = list(last.plan.steps), whole.rot or whole.direction
+    if not (whole.shape in shapes_said(last.text) if whole.shape else _is_curve(whole, steps)):
+        return None
+    if side:
+        return mirrored(steps, side == "left") if side in SIDES else None
+    return [flipped(step) for step in steps] if "other_way" in whole.flags else steps
+
+
+def _is_curve(whole: Frame, steps: Sequence[Step]) -> bool:
+    return whole.verb == "curve" and len(steps) == 1 and isinstance(steps[0], Arc)
 
 
 def _further_round(whole: Frame, context: Context) -> list[Step] | None:

@@ -15,6 +15,7 @@ from chatrobot.language.frames import DIRECTIONS, EXTENTS, SIDES, Frame
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
+from chatrobot.language.rephrase import plain_text
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
@@ -140,6 +141,12 @@ def _extent(step: Step) -> float:
     """How far a step drives, how long it lasts, or how much it turns."""
     sizes = (getattr(step, name, None) for name in ("distance_m", "duration_s", "angle_rad"))
     return next((float(size) for size in sizes if size), math.inf)
+
+
+@lru_cache(maxsize=128)
+def shapes_said(text: str) -> frozenset[str]:
+    """The shapes that a text names."""
+    return frozenset(atom.value for atom in _atoms(plain_text(text)) if atom.kind == "shape")
 
 
 def _atoms(text: str) -> list[Atom]:
