@@ -80,6 +80,9 @@ def _bare(unit: str) -> Atom:
     return Atom("unknown", unit, unit)
 
 
+_START: Meaning = (("flag", "to_start"),)
+
+
 def _cover(
     units: Key, words: Lexicon, names: dict[Key, Meaning], guess: float
 ) -> list[tuple[int, int, Meaning | None]]:
@@ -89,7 +92,6 @@ def _cover(
     named = [
         (at, at + len(key))
         for key in names
-        if len(key) > 1
         for at in range(count)
         if units[at : at + len(key)] == key
     ]
@@ -107,6 +109,8 @@ def _cover(
             if key not in names and any(start < begin < end < stop for begin, stop in named):
                 continue  # `to the front` of `drive to the front door`, where the front door is a place
             meaning = names.get(key) or words.words.get(key)
+            if meaning == _START and any(start < begin and end == stop for begin, stop in named):
+                continue  # `to the base`, where the base is a place
             price = _NAMED if key in names else _WORD
             if meaning is not None and meaning[0][0] == "unknown":
                 price = _BEARING
