@@ -62,7 +62,7 @@ def read_named_here(
     What moves nothing beside it is passed over; the rest is what `read` makes of it.
     """
     taught = forms.read_definition(plain, reading.language)
-    if taught is not None and order_log_odds(read_acts(taught.body)) >= MAYBE_ORDER:
+    if taught is not None and any(act.clause.moves for act in read_acts(taught.body)):
         return None
     for pattern in rules.forms(reading.language, "naming", "here"):
         found = pattern.search(plain)
