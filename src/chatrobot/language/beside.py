@@ -41,7 +41,16 @@ PART_OF_ASIDE, TOGETHER = -3.0, 1.0
 """The clauses of a sentence beside the order have the sum of their odds, less the second, where each has the first."""
 _REFERENCES = frozenset(
     ("flag", flag)
-    for flag in ("again", "other_way", "same_amount", "mirrored", "to_start", "original_heading", "same_way", "redo")
+    for flag in (
+        "again",
+        "other_way",
+        "same_amount",
+        "mirrored",
+        "to_start",
+        "original_heading",
+        "same_way",
+        "redo",
+    )
 ) | {("verb", "undo")}
 _RETURN, _LEADING = ("verb", "return"), frozenset({("verb", "return"), ("verb", "go")})
 _OF_THE_START = frozenset({"did", "other", "robot"})

@@ -64,7 +64,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
 
 
 def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] | None:
-    """The way back to where it began, or to where it looked; None where that is not wanted, or other motions come first.
+    """The way back to where it began or looked; None where that is not wanted, or other motions come first.
 
     Raises:
         Unclear: where only a part of the way may be meant, or either of the two.
@@ -285,7 +285,9 @@ def _further_round(whole: Frame, context: Context) -> list[Step] | None:
     """`Another 90 degrees`, after a curve: on along it."""
     last, angle = context.dialogue.last_motion, whole.q.get("angle") or whole.q.get("turns")
     step = last.plan.steps[-1] if last is not None and last.plan is not None else None
-    goes_on = whole.flags == {"more"} and len(whole.q) == 1 and not (whole.rot or whole.direction or whole.shape)
+    goes_on = (
+        whole.flags == {"more"} and len(whole.q) == 1 and not (whole.rot or whole.direction or whole.shape)
+    )
     if not isinstance(step, Arc) or angle is None or not goes_on or whole.verb not in ("", *GO):
         return None
     return [replace(step, angle_rad=angle.number)]

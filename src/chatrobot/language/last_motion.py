@@ -15,8 +15,8 @@ from chatrobot.language.frames import DIRECTIONS, EXTENTS, SIDES, Frame
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.rephrase import plain_text
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rephrase import plain_text
 from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait

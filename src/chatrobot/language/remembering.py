@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-
 from collections.abc import Callable
 
 from chatrobot.language import forms, rules
@@ -54,9 +53,7 @@ def read_remembering(plain: str, reading: Reading) -> Interpretation | None:
     return _placed([*steps, *steps_of(pending, reading)], reading)
 
 
-def read_named_here(
-    plain: str, reading: Reading, read: Callable[[str], list[Step]]
-) -> Interpretation | None:
+def read_named_here(plain: str, reading: Reading, read: Callable[[str], list[Step]]) -> Interpretation | None:
     """What a normalised text means that names this place in one of its parts; None for any other text.
 
     What moves nothing beside it is passed over; the rest is what `read` makes of it.
@@ -70,7 +67,9 @@ def read_named_here(
         if not found or not name:
             continue
         try:
-            before, after = (_moving_steps(part, read) for part in (plain[: found.start()], plain[found.end() :]))
+            before, after = (
+                _moving_steps(part, read) for part in (plain[: found.start()], plain[found.end() :])
+            )
         except Unclear:
             continue
         return _placed([*before, Remember(name), *after], reading)

@@ -89,12 +89,7 @@ def _cover(
     """Dynamic programming from the end: the fewest words, unknown units only where nothing else fits."""
     count = len(units)
     name_length = max((len(key) for key in names), default=0)
-    named = [
-        (at, at + len(key))
-        for key in names
-        for at in range(count)
-        if units[at : at + len(key)] == key
-    ]
+    named = [(at, at + len(key)) for key in names for at in range(count) if units[at : at + len(key)] == key]
     best = [0.0] * (count + 1)
     choice: list[tuple[int, Meaning | None]] = [(0, None)] * count
     for start in range(count - 1, -1, -1):
