@@ -64,6 +64,8 @@ def arc(frame: Frame, pace: Pace) -> list[Step]:
         forward = pace.speed(frame) or pace.profile.defaults.speed_mps
         turned = angle.number / seconds.number if angle else pace.profile.defaults.rate_radps
         return [RawTwist(-forward if backward else forward, 0.0, turned if left else -turned, seconds.number)]
+    if radius is None and {"again", "more"} & frame.flags:
+        raise Unclear("which_size", frame.text)  # `the same arc`, where none was driven
     if radius is None:
         radius = pace.profile.defaults.distance_m
     sweep = angle.number if angle else math.pi / 2

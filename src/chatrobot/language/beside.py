@@ -14,7 +14,7 @@ from functools import lru_cache
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, without
 from chatrobot.language.aside_features import features, slot_of
 from chatrobot.language.data_files import DATA
-from chatrobot.language.lexicon import lexicon
+from chatrobot.language.lexicon import Meaning, lexicon
 from chatrobot.language.quoting import quotes_ahead, quotes_behind, sentences_of
 from chatrobot.language.set_off import has_amount
 from chatrobot.language.signs import Clause, Names, Sign
@@ -39,7 +39,22 @@ SOUNDS_ORDERED = 1.5
 """So much less are the odds of a clause that sounds like an order itself: `and then turn away from him`."""
 PART_OF_ASIDE, TOGETHER = -3.0, 1.0
 """The clauses of a sentence beside the order have the sum of their odds, less the second, where each has the first."""
-_REFERENCES = ((("flag", "again"),), (("flag", "other_way"),), (("verb", "undo"),))
+_REFERENCES = frozenset(
+    ("flag", flag)
+    for flag in (
+        "again",
+        "other_way",
+        "same_amount",
+        "mirrored",
+        "to_start",
+        "original_heading",
+        "same_way",
+        "redo",
+    )
+) | {("verb", "undo")}
+_RETURN, _LEADING = ("verb", "return"), frozenset({("verb", "return"), ("verb", "go")})
+_OF_THE_START = frozenset({"did", "other", "robot"})
+_TO_A_PLACE = frozenset({"to", "other"})
 _POLITE = frozenset({"please", "opening", "robot", "request"})
 _BOUND = frozenset({"condition", "later"})
 _NO_AMOUNTS = frozenset({"VERB", "DIR", "PLACE", "COUNTER", "FLAG"})
@@ -158,13 +173,21 @@ def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
 
 
 def refers(clause: Clause) -> bool:
-    """Whether a clause asks for the motion before, and so much: `undo that`, `45 degrees the other way please`."""
+    """Whether a clause asks for the motion before, the start or a taught place, and so much: `undo that, please`."""
     known = lexicon().words
     amounts = _NUMBERS | _UNITS
     moving = [sign for sign in clause.signs if sign.moves and sign.label not in amounts]
-    said = [known.get(tuple(sign.text.split("_"))) for sign in moving]
-    beside = {sign.label for sign in clause.signs if not sign.moves}
-    return bool(said) and all(meaning in _REFERENCES for meaning in said) and beside <= _POLITE
+    said = [known.get(tuple(sign.text.split("_")), ()) for sign in moving if not sign.is_name]
+    beside = {sign.label for sign in clause.signs if not sign.moves} - _POLITE
+    if len(said) < len(moving):  # a place by its name
+        return bool(said) and all(_LEADING & {*meaning} for meaning in said) and beside <= _TO_A_PLACE
+    if moving and moving[0] is clause.signs[0] and _RETURN in said[0] and len(moving) == 1:
+        return "did" in beside <= _OF_THE_START  # `back to where you started`
+    return bool(said) and all(_is_reference(meaning) for meaning in said) and not beside
+
+
+def _is_reference(meaning: Meaning) -> bool:
+    return bool(_REFERENCES & {*meaning}) and {*meaning} <= _REFERENCES | {_RETURN, ("flag", "extra")}
 
 
 def refers_alone(reads: Sequence[Read]) -> bool:

@@ -180,7 +180,10 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         )
         return [*before[:last], amount, *before[last + 1 :], *rest]
     if pieces and all(a.kind == "q" for a in pieces) and not any(a.kind in _PIECE for a in before):
-        return [Atom("flag", "short_of", "not"), *said, *rest]
+        again = [
+            a for a in before if a.value == "again"
+        ]  # `that again, I mean 2 m`: once more, by another amount
+        return [*(again or [Atom("flag", "short_of", "not")]), *said, *rest]
     if not pieces:
         raise Unclear("unknown_part", " ".join(a.text for a in after[:end]))
     if _is_clause(pieces):

@@ -9,9 +9,10 @@ from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
-from chatrobot.language.frames import Frame
-from chatrobot.language.inverse import inverse, is_sideways
-from chatrobot.language.last_motion import check_answers_nothing, motion_meant, steps_of
+from chatrobot.language.edits import mirrored
+from chatrobot.language.frames import GO, SIDES, Frame
+from chatrobot.language.inverse import flipped, inverse, is_sideways
+from chatrobot.language.last_motion import check_answers_nothing, motion_meant, shapes_said, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
@@ -20,9 +21,10 @@ from chatrobot.language.repeats import repeats_all
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import FAR_RAD, NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
-from chatrobot.plan.steps import Drive, Face, Go, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn, Wait
 from chatrobot.robots.profile import RobotProfile
 
+_ONE_MORE = frozenset({"again", "more", "extra", "same_amount"})
 _COUNTED = frozenset({"both", "two", "three", "four", "five", "six", "2", "3", "4", "5", "6"})
 """What counts the turns that are meant."""
 
@@ -43,52 +45,98 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return None
     if "short_of" in whole.flags:
         return to_total(whole, context, pace)
-    if "original_heading" in whole.flags and ("to_start" in whole.flags or whole.verb == "return"):
-        start = context.dialogue.start_pose
-        return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
-    if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
-        return None  # a motion of its own comes before
-    if "original_heading" in whole.flags and whole.place:
-        said = " ".join(dict.fromkeys(whole.texts))
-        raise Unclear("unclear_motion", said)  # `turn back home`: to look back, or to drive there?
-    if "original_heading" in whole.flags and whole.verb in ("face", "turn", "", "return", "go"):
-        if set(whole.q) - {"rate", "percent", "faster"}:
-            raise Unclear("unclear_motion", whole.text)  # 转回来一半: not all the way
-        return [Face(_heading_before(whole, context.dialogue), frame="odom", rate_radps=pace.rate(whole))]
-    if whole.verb == "face" and "to_start" in whole.flags:
-        raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
-    if (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place:
-        _check_not_counted(whole, frames)
-        if {"bit", "halfway"} & whole.flags and not is_chinese(whole.text):
-            raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
-        if whole.direction and whole.direction != "back":
-            return None
-        start = context.dialogue.start_pose
-        if ("to_start" not in whole.flags and _only_turned(context)) or _only_slid(context):
-            return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
-        return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
-    last = context.dialogue.last_motion
-    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
-    if slid and (whole.verb, whole.direction) == ("slide", "back") and not (whole.q or whole.flags):
-        return inverse(list(steps_of(last)), pace.speed(whole))  # `then slide back`
-    more = _more_of_before(whole, context, pace)
+    start = _to_the_start(whole, frames, context, pace)
+    if start is not None or _names_its_own(whole):
+        return start
+    more = _slid_back(whole, context, pace) or _more_of_before(whole, context, pace)
     if more is not None:
         return more
+    alike = _of_the_same_shape(whole, context)
+    if alike is not None:
+        return alike
     if "again" in whole.flags:
         _check_not_counted(whole, frames)
     if {"again", "more"} <= whole.flags and any("another" in frame.texts for frame in frames):
         raise Unclear("unclear_motion", whole.text)  # `again, another 20 cm`: so much more, or only so much?
-    if _is_another_kind(whole, context):
+    if _is_another_kind(whole, context) or not is_change(whole):
         return None
-    if is_change(whole):
-        last = motion_meant(context.dialogue)
-        only_again = whole.flags == {"again"} and not (whole.q or whole.moves or whole.pace)
-        undo_again = last is not context.dialogue.last_motion and only_again and context.dialogue.ledger.done
-        parts = repeats_all(whole) and "again" in whole.flags and _is_one_of_several(context.dialogue)
-        if is_correction(last) or undo_again or parts:
-            raise Unclear("unclear_motion", whole.text)  # what was done, or what was meant?
-        return changed(steps_of(last), whole, pace)
+    return _changed(whole, context, pace)
+
+
+def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] | None:
+    """The way back to where it began or looked; None where that is not wanted, or other motions come first.
+
+    Raises:
+        Unclear: where only a part of the way may be meant, or either of the two.
+    """
+    start, flags = context.dialogue.start_pose, whole.flags
+    if "original_heading" in flags:
+        return _faced_as_before(whole, context, pace)
+    if whole.verb == "face" and "to_start" in flags:
+        raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
+    if not _goes_to_start(whole) or (whole.direction and whole.direction != "back"):
+        return None
+    _check_not_counted(whole, frames)
+    if {"bit", "halfway"} & flags and not is_chinese(whole.text):
+        raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
+    if ("to_start" not in flags and _only_turned(context)) or _only_slid(context):
+        return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
+    return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
+
+
+def _goes_to_start(whole: Frame) -> bool:
+    return (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place
+
+
+def _names_its_own(whole: Frame) -> bool:
+    """Whether a motion of its own comes before the way back: `1 m forward, then back to the start`, `return left`."""
+    if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
+        return True
+    return _goes_to_start(whole) and whole.direction not in ("", "back")
+
+
+def _faced_as_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """The heading of before, and the place where it says so; None for what is told in full.
+
+    Raises:
+        Unclear: `turn back home`: to look there, or to drive there? 转回来一半: not all the way.
+    """
+    start = context.dialogue.start_pose
+    if "to_start" in whole.flags or whole.verb == "return":
+        return [Go(start.x_m, start.y_m, start.yaw_rad, frame="odom", speed_mps=pace.speed(whole))]
+    if whole.has_extent:
+        return None
+    if whole.place:
+        raise Unclear("unclear_motion", " ".join(dict.fromkeys(whole.texts)))
+    if whole.verb not in ("face", "turn", "", "go"):
+        return None
+    if set(whole.q) - {"rate", "percent", "faster"}:
+        raise Unclear("unclear_motion", whole.text)
+    return [Face(_heading_before(whole, context.dialogue), frame="odom", rate_radps=pace.rate(whole))]
+
+
+def _slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`Then slide back`, after a slide."""
+    last = context.dialogue.last_motion
+    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
+    if slid and (whole.verb, whole.direction) == ("slide", "back") and not (whole.q or whole.flags):
+        return inverse(list(steps_of(last)), pace.speed(whole))
     return None
+
+
+def _changed(whole: Frame, context: Context, pace: Pace) -> list[Step]:
+    """The last motion as `whole` wants it now.
+
+    Raises:
+        Unclear: where it is not clear what was done, or what was meant.
+    """
+    last = motion_meant(context.dialogue)
+    only_again = whole.flags == {"again"} and not (whole.q or whole.moves or whole.pace)
+    undo_again = last is not context.dialogue.last_motion and only_again and context.dialogue.ledger.done
+    parts = repeats_all(whole) and "again" in whole.flags and _is_one_of_several(context.dialogue)
+    if is_correction(last) or undo_again or parts:
+        raise Unclear("unclear_motion", whole.text)
+    return changed(steps_of(last), whole, pace)
 
 
 def _without_outcome(frames: Sequence[Frame]) -> Sequence[Frame]:
@@ -204,13 +252,45 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
     if "again" in whole.flags and both and not whole.moves and whole.q.keys() <= {"times"}:
         count = whole_number(whole.q["times"].number, whole.q["times"].text) if whole.q else 1
         return last_two(context, whole.text, steps="both" in whole.flags) * count
-    if whole.moves or whole.q:
-        return None
+    further = _further_round(whole, context)
+    if further is not None or whole.moves or whole.q:
+        return further
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     alone = whole.flags == {"more"} and whole.texts == ["more"]  # `further` is a way of its own
     if on and ("bit" in whole.flags or alone) and whole.flags <= {"bit", "more"} and not whole.roles:
         return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
     return None
+
+
+def _of_the_same_shape(whole: Frame, context: Context) -> list[Step] | None:
+    """`Another half circle to the right`, `the same arc`: as large as the one before, which was the whole motion."""
+    last = context.dialogue.last_motion
+    if last is None or last.plan is None or whole.q or whole.place or is_correction(last):
+        return None
+    if not _ONE_MORE & whole.flags or whole.flags - _ONE_MORE - {"other_way", "instead"}:
+        return None
+    steps, side = list(last.plan.steps), whole.rot or whole.direction
+    if not (whole.shape in shapes_said(last.text) if whole.shape else _is_curve(whole, steps)):
+        return None
+    if side:
+        return mirrored(steps, side == "left") if side in SIDES else None
+    return [flipped(step) for step in steps] if "other_way" in whole.flags else steps
+
+
+def _is_curve(whole: Frame, steps: Sequence[Step]) -> bool:
+    return whole.verb == "curve" and len(steps) == 1 and isinstance(steps[0], Arc)
+
+
+def _further_round(whole: Frame, context: Context) -> list[Step] | None:
+    """`Another 90 degrees`, after a curve: on along it."""
+    last, angle = context.dialogue.last_motion, whole.q.get("angle") or whole.q.get("turns")
+    step = last.plan.steps[-1] if last is not None and last.plan is not None else None
+    goes_on = (
+        whole.flags == {"more"} and len(whole.q) == 1 and not (whole.rot or whole.direction or whole.shape)
+    )
+    if not isinstance(step, Arc) or angle is None or not goes_on or whole.verb not in ("", *GO):
+        return None
+    return [replace(step, angle_rad=angle.number)]
 
 
 def _goes_on_the_same_way(frames: Sequence[Frame]) -> bool:

@@ -83,8 +83,8 @@ def with_earlier_speed(plain: str, reading: Reading) -> str:
         Unclear: there was no motion before, or it had several speeds.
     """
     found = same_speed(plain, reading.language)
-    if found is None:
-        return plain
+    if found is None or any(atom.value == "speed" for atom in reading.atoms(plain[: found.start()])):
+        return plain  # `1 m at 0.2 m/s, then back at the same speed`: that of this text
     last = reading.context.dialogue.last_motion
     steps = last.plan.steps if last is not None and last.plan is not None else ()
     rates = {(step.rate_radps, "角速度", "弧度每秒") for step in steps if isinstance(step, Turn)}

@@ -63,7 +63,8 @@ class Edit:
 
 
 def read_edit(atoms: Sequence[Atom]) -> Edit | None:
-    edit, denied = Edit(goes_on=atoms[0].kind == "conn") if atoms else Edit(), False
+    opens = next((i for i, atom in enumerate(atoms) if atom.kind not in _IDLE), 0)
+    edit, denied = Edit(goes_on=bool(atoms) and atoms[opens].kind == "conn"), False
     said = {atom.value for atom in atoms if atom.kind == "flag"}
     for i, atom in enumerate(_in_edit(atom, said) for atom in atoms):
         sign = sign_of(atom)
@@ -101,7 +102,7 @@ def read_edit(atoms: Sequence[Atom]) -> Edit | None:
             edit.nth = int(atom.value)
         elif atom.value == "make" or _is_one(atom):
             edit.is_named = True
-        elif not (atom.kind == "conn" and (i == 0 or "first" in edit.flags or {"again", "more"} <= said)):
+        elif not (atom.kind == "conn" and (i == opens or "first" in edit.flags or {"again", "more"} <= said)):
             return None
     return None if denied else edit
 

@@ -241,7 +241,7 @@ def _to_side(steps: list[Step], left: bool, *, is_named: bool, goes_on: bool) ->
     if len(steps) == 1 and is_sideways(steps[0]):
         return steps if _heads_left(steps[0]) == left else [flipped(steps[0])]
     is_named |= goes_on and len(steps) == 1  # `and right`, after `turn left 30`
-    return _mirrored(steps, left) if is_named else None
+    return mirrored(steps, left) if is_named else None
 
 
 def _heads_left(step: Step) -> bool:
@@ -339,7 +339,7 @@ def _with_value(step: Step, value: float) -> Step:
     return dataclasses.replace(step, angle_rad=value, duration_s=None) if isinstance(step, Turn) else step
 
 
-def _mirrored(steps: list[Step], left: bool) -> list[Step] | None:
+def mirrored(steps: list[Step], left: bool) -> list[Step] | None:
     """`The same, but turning right`: where all that turned to one side now turn to the other."""
     turning = [step for step in steps if isinstance(step, (Turn, Arc))]
     if len({step.left for step in turning}) > 1:

@@ -13,6 +13,9 @@ UNNAMED = "★"
 """The name of a place that was remembered without one: it is what `that place` means."""
 
 
+_MARKS = " \"'“”「」『』.,!?。"
+
+
 class Definition(NamedTuple):
     """A word and the text of what it means."""
 
@@ -62,7 +65,7 @@ def read_place(clause: str, language: str) -> str | None:
             return UNNAMED
     for pattern in _patterns(language, "remember"):
         found = pattern.fullmatch(plain)
-        name = _trimmed(found["name"], language) if found else ""
+        name = trimmed(found["name"], language) if found else ""
         if name:
             return name
     return None
@@ -73,16 +76,17 @@ def read_place_told(text: str, language: str) -> str | None:
     plain = text.strip(" ,.!;:。")
     for pattern in _patterns(language, "remember_told"):
         found = pattern.fullmatch(plain)
-        name = _trimmed(found["name"], language) if found else ""
+        name = trimmed(found["name"], language) if found else ""
         if name:
             return name
     return None
 
 
-def _trimmed(name: str, language: str) -> str:
+def trimmed(name: str, language: str) -> str:
+    """The name of a place without what only stands around it; an empty string where it is none."""
     trim = _pattern(language, "name_trim")
-    name = name.strip(" \"'“”「」『』.,!。")
-    while (shorter := trim.sub("", name).strip(" \"'“”「」『』.,!。")) != name and shorter:
+    name = name.strip(_MARKS)
+    while (shorter := trim.sub("", name).strip(_MARKS)) != name and shorter:
         name = shorter
     words = len(name.split()) if name.isascii() else len(name) / 3
-    return "" if words > 4 or _pattern(language, "name_stop").search(name) else name
+    return "" if words > 4 or ":" in name or _pattern(language, "name_stop").search(name) else name

@@ -47,9 +47,11 @@ from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, with_spoken_place
+from chatrobot.language.pointing import beside_reference
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
+from chatrobot.language.remembering import read_named_here
 from chatrobot.language.rephrase import in_full, is_item, rephrased, with_breaks
 from chatrobot.language.run_on import set_apart
 from chatrobot.language.selections import wants_part
@@ -159,6 +161,9 @@ class OfflineInterpreter:
 
         names, plain = names_in(reading.context), normalise(text)
         unit = unit_after(reading.context)
+        pointed = beside_reference(plain, read_acts(plain, names), read, read_anew)
+        if pointed is not None:
+            return pointed
         found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
         return found or set_apart(plain, names, reading.language, problem, read)
 
@@ -211,6 +216,11 @@ class OfflineInterpreter:
             answer_about_places(plain, language, context)
             or read_naming(plain, language, context)
             or read_putting(plain, language, context)
+            or read_named_here(
+                plain,
+                Reading(language, context, self._profile),
+                lambda part: self._steps(part, language, context),
+            )
             or told_what_it_would_do(plain, language, lambda said: self._meant(said, language, context))
         )
         if told is not None:

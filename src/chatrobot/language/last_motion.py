@@ -16,6 +16,7 @@ from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
+from chatrobot.language.rephrase import plain_text
 from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
@@ -118,7 +119,7 @@ def in_unit_before(amount: Atom, step: Step, unit_m: float) -> Atom:
     unit_m = unit_m if isinstance(step, Drive) else 0.0
     if amount.value == "number" and isinstance(step, (Drive, Turn, Wait)) and step.duration_s:
         return quantity("time", amount.number, amount.text)
-    if amount.value != "number" or not (unit_m or isinstance(step, Turn)):
+    if amount.value != "number" or not (unit_m or isinstance(step, (Turn, Arc))):
         return amount
     name, factor = ("length", unit_m) if unit_m else ("angle", math.radians(1.0))
     return quantity(name, amount.number * factor, amount.text)
@@ -140,6 +141,12 @@ def _extent(step: Step) -> float:
     """How far a step drives, how long it lasts, or how much it turns."""
     sizes = (getattr(step, name, None) for name in ("distance_m", "duration_s", "angle_rad"))
     return next((float(size) for size in sizes if size), math.inf)
+
+
+@lru_cache(maxsize=128)
+def shapes_said(text: str) -> frozenset[str]:
+    """The shapes that a text names."""
+    return frozenset(atom.value for atom in _atoms(plain_text(text)) if atom.kind == "shape")
 
 
 def _atoms(text: str) -> list[Atom]:

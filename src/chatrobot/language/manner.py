@@ -66,6 +66,6 @@ def _relative(frame: Frame, default: float, before: float, maximum: float) -> fl
         "slow": SLOW * default,
         "fast": min(FAST * default, maximum),
         "max": maximum,
-        "half_max": maximum / 2,
+        "half_max": maximum / 2 if before == default else before / 2,  # 太快了，用一半的速度退回来
     }
     return factors.get(frame.pace)

@@ -41,8 +41,8 @@ def instead(
     last = context.dialogue.turns[-1] if context.dialogue.turns else None
     if last is None or last.plan is None or any("short_of" in frame.flags for frame in frames):
         return None  # a total is reached from where it is
-    if not last.moved:
-        return None
+    if not last.moved or (last.walk is not None and last.walk.kind == "undo"):
+        return None  # after `undo that` nothing is left to be put right
     back = taken_back(context, profile, 1).steps
     done = list(last.plan.steps)
     if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:

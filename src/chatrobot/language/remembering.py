@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
-from chatrobot.language import forms
+from chatrobot.language import forms, rules
+from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts
 from chatrobot.language.command import steps_of
 from chatrobot.language.interpretation import Interpretation, planned
 from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
+from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Remember, Step
 
+_CONNECTS = r"\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后"
 _BREAKS = re.compile(
     r"(?<!\d)[,.;!?](?!\d)|(?<=\d)[,.;!?](?=\s|$)|[,.;!?]\s|,|\n|"
-    r"\b(?:and then|then|and)\b|然后|接着|再|并且|并|之后"
+    rf"{_CONNECTS}"
 )
+
+_OPENS = re.compile(rf"^(?:[,.;!?。 ]|{_CONNECTS})+")
 
 
 def read_remembering(plain: str, reading: Reading) -> Interpretation | None:
@@ -45,6 +51,36 @@ def read_remembering(plain: str, reading: Reading) -> Interpretation | None:
         if not (name == forms.UNNAMED and following):
             steps.append(Remember(name))
     return _placed([*steps, *steps_of(pending, reading)], reading)
+
+
+def read_named_here(plain: str, reading: Reading, read: Callable[[str], list[Step]]) -> Interpretation | None:
+    """What a normalised text means that names this place in one of its parts; None for any other text.
+
+    What moves nothing beside it is passed over; the rest is what `read` makes of it.
+    """
+    taught = forms.read_definition(plain, reading.language)
+    if taught is not None and any(act.clause.moves for act in read_acts(taught.body)):
+        return None
+    for pattern in rules.forms(reading.language, "naming", "here"):
+        found = pattern.search(plain)
+        name = forms.trimmed(found["name"], reading.language) if found else ""
+        if not found or not name:
+            continue
+        try:
+            before, after = (
+                _moving_steps(part, read) for part in (plain[: found.start()], plain[found.end() :])
+            )
+        except Unclear:
+            continue
+        return _placed([*before, Remember(name), *after], reading)
+    return None
+
+
+def _moving_steps(part: str, read: Callable[[str], list[Step]]) -> list[Step]:
+    reads = read_acts(part)
+    bound = any(sign.label == "condition" for act in reads for sign in act.clause.signs)
+    told = bound or any(act.clause.tells for act in reads)
+    return read(_OPENS.sub("", part)) if told or order_log_odds(reads) >= MAYBE_ORDER else []
 
 
 def _placed(steps: list[Step], reading: Reading) -> Interpretation:

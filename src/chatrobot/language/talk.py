@@ -141,7 +141,7 @@ def _tells_somebody(clause: Clause) -> bool:
     """大家都退后: whether somebody else is told to do a motion."""
     said = [sign for sign in clause.signs if sign.label not in _POLITE]
     labels = [sign.label for sign in said]
-    return labels[:1] == ["person"] and "VERB" in labels and not {"robot", "request"} & {*labels}
+    return labels[:1] == ["person"] and "VERB" in labels and not {"robot", "request", "past"} & {*labels}
 
 
 def _calls_a_name(reads: Sequence[Read], text: str, context: Context) -> bool:

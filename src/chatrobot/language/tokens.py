@@ -80,6 +80,9 @@ def _bare(unit: str) -> Atom:
     return Atom("unknown", unit, unit)
 
 
+_START: Meaning = (("flag", "to_start"),)
+
+
 def _cover(
     units: Key, words: Lexicon, names: dict[Key, Meaning], guess: float
 ) -> list[tuple[int, int, Meaning | None]]:
@@ -101,6 +104,8 @@ def _cover(
             meaning, price = _meaning_and_price(key, words, names, guess)
             if meaning is None or (end < count and _goes_on(key, units[end], meaning)):
                 continue
+            if meaning == _START and any(start < begin and end == stop for begin, stop in named):
+                continue  # `to the base`, where the base is a place
             if best[end] + price <= best[start]:
                 best[start], choice[start] = best[end] + price, (end, meaning)
     covered = []

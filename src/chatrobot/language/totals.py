@@ -34,9 +34,7 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
         if "number" in said and not done / 10 <= whole.q["length"].number <= 10 * done:
             raise Unclear("no_unit", whole.text)  # `too slow, 0.2`: hardly 0.2 cm, after 30 cm
-        if "again" in whole.flags:
-            raise Unclear("contradiction", whole.text)  # more, or a total?
-        missing = whole.q["length"].number - (0.0 if "more" in whole.flags else done)
+        missing = _missing(whole, whole.q["length"].number, done)
         if missing <= 0.0 and whole.verb in GO:
             raise Unclear("contradiction", whole.text)  # `go on to 1 m`, after 2 m
         if missing > 0.005:
@@ -48,9 +46,22 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         return [Drive(-missing, direction_rad=math.remainder(step.direction_rad + math.pi, 2 * math.pi))]
     angle = whole.q.get("angle") or whole.q.get("turns")
     if angle and isinstance(step, Turn) and len(steps) == 1:
-        missing = angle.number - abs(moved.yaw_rad)
+        missing = _missing(whole, angle.number, abs(moved.yaw_rad))
         return [Turn(abs(missing), left=step.left if missing > 0 else not step.left)]
     raise Unclear("nothing_before", whole.text)
+
+
+def _missing(whole: Frame, told: float, done: float) -> float:
+    """What is missing: `not enough, another 30`, after 60, is no total, nor is `not enough, again 30`.
+
+    Raises:
+        Unclear: for what may be either: `not enough, again 90`, after 60.
+    """
+    if "more" in whole.flags or ("again" in whole.flags and told < done):
+        return told
+    if "again" in whole.flags:
+        raise Unclear("contradiction", whole.text)
+    return told - done
 
 
 def _with_unit(whole: Frame, last: TurnRecord, step: Step) -> Frame:
