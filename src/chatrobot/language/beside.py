@@ -61,6 +61,10 @@ _NO_AMOUNTS = frozenset({"VERB", "DIR", "PLACE", "COUNTER", "FLAG"})
 _WAYS = frozenset({"VERB", "DIR", "ROT", "SHAPE"})
 _NUMBERS = frozenset({"NUMBER", "FRACTION", "SCALE"})
 _UNITS = frozenset({"UNIT", "SECOND"})
+_COUNTING = frozenset({"UNIT", "SECOND", "TIMES", "ROLE"})
+"""Labels of words that are part of an amount only beside a number."""
+_COUNTED = frozenset({"person", "robot", "thing", "kin"})
+"""Labels of words of which a number tells how many there are."""
 
 
 @dataclass(frozen=True)
@@ -164,12 +168,26 @@ def says_motion_alone(clause: Clause) -> bool:
 
 def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
     """Whether it has an amount: in a sentence of its own, a number with a unit or with a way to go."""
-    moving = {sign.label for sign in signs if sign.moves and sign.label.isupper()}
+    moving = {
+        sign.label
+        for i, sign in enumerate(signs)
+        if sign.moves and sign.label.isupper() and _may_measure(signs, i)
+    }
     if not apart:
         return not moving <= _NO_AMOUNTS
     measured = any(a.label in _NUMBERS and b.label in _UNITS for a, b in itertools.pairwise(signs))
     counted = bool(moving & _NUMBERS and moving & _WAYS)
     return measured or counted or not moving <= _NO_AMOUNTS | _NUMBERS | {"UNIT", "TIMES", "ROLE"}
+
+
+def _may_measure(signs: Sequence[Sign], i: int) -> bool:
+    """Whether a word may be part of an amount: no number of what nobody knows (三项专利), no unit without one (馆长)."""
+    if signs[i].label in _NUMBERS:
+        counted = next((sign for sign in signs[i:] if sign.label not in _NUMBERS), None)
+        return counted is None or counted.moves or counted.label not in (counted.text, *_COUNTED)
+    return signs[i].label not in _COUNTING or any(
+        sign.label in _NUMBERS for sign in (*signs[max(i - 1, 0) : i], *signs[i + 1 : i + 2])
+    )
 
 
 def refers(clause: Clause) -> bool:

@@ -232,16 +232,15 @@ class OfflineInterpreter:
             return planned(part, language)
         names = names_in(context)
         reads = read_acts(plain, names)
-        talk = talk_in(reads)
+        apart = set_off(plain, reads, language, names)
+        talk = [read for read in reads if read in (*apart, *talk_in(reads))]
         rest = without(plain, reads, talk)
         if rest:
             with contextlib.suppress(Unclear):
                 meant = self._interpreted(rest, language, context)
                 # What a request for a program tells in full is its own reader's.
-                bears = any_may_bear(reads, talk) and not read_program_request(rest)
-                if bears:
-                    apart = set_off(plain, reads, language, names)
-                    bears = any_may_bear(reads, [read for read in talk if read not in apart])
+                bears = any_may_bear(reads, [read for read in talk if read not in apart])
+                bears = bears and not read_program_request(rest)
                 return (proposed(meant, language) or meant) if bears else meant
         try:
             meant = self._interpreted(text, language, context)

@@ -19,6 +19,7 @@ from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
 
 _BETWEEN = frozenset({"glue", "filler"})
 """What may stand between `back` and the place: `back to the kitchen`."""
+_AT_START_M = 1e-6
 
 
 def back_to_places(atoms: Sequence[Atom]) -> list[Atom]:
@@ -77,12 +78,22 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "same_way" in frame.flags:
         return inverse(state.steps, speed)
     drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
-    if drives and all(isinstance(step, Drive) and step.distance_m for step in drives):
+    straight = bool(drives) and all(isinstance(step, Drive) and step.distance_m for step in drives)
+    if straight and not _are_back(drives):
         return inverse(list(drives), speed)
     about = _has_turned_about(state) and all(isinstance(step, Turn) for step in drives)
     if state.home is not None and (about or not drives):
         return [Go(state.home.x_m, state.home.y_m, frame="odom", speed_mps=speed)]
     return [Go(0.0, 0.0, frame="start", speed_mps=speed)]
+
+
+def _are_back(steps: Sequence[Step]) -> bool:
+    """`40 cm right, 40 cm left, and you are back where you began`: whether drives lead to where they began."""
+    drives = [step for step in steps if isinstance(step, Drive)]
+    ahead_m, left_m = (
+        sum((step.distance_m or 0.0) * of(step.direction_rad) for step in drives) for of in (math.cos, math.sin)
+    )
+    return math.hypot(ahead_m, left_m) < _AT_START_M
 
 
 def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:

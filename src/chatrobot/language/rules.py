@@ -74,7 +74,8 @@ class Rule(Form):
         return self.pattern.sub(self.said, text) if self.pattern.search(text) else text
 
 
-_NEVER = Form("(?!)")
+NEVER = Form("(?!)")
+"""What `form` answers where a language has none of that name."""
 
 
 @cache
@@ -92,7 +93,7 @@ def forms(language: str, table: str, name: str) -> tuple[Form, ...]:
 
 def form(language: str, table: str, name: str) -> Form:
     """The one pattern under that name; one that never matches where that language has none."""
-    return next(iter(forms(language, table, name)), _NEVER)
+    return next(iter(forms(language, table, name)), NEVER)
 
 
 def forms_of(name: str, sources: Callable[[], Iterable[str]]) -> tuple[Form, ...]:

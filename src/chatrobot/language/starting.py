@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 from chatrobot.language.context import Dialogue
+from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.rules import form
+from chatrobot.language.rules import NEVER, form
+from chatrobot.language.signs import Clause, Sign, clauses_of
 from chatrobot.language.typos import correct
 from chatrobot.language.unclear import Unclear
 
 _ALONE = ((("flag", "again"),), (("verb", "undo"),))
 """What a single word asks for, though it is mistyped."""
+_BEFORE_NAME = frozenset({"opening", "social", "please", "praise", "joint"})
+_LONGEST_NAME = 3
+"""Of so many characters."""
 
 
 def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
@@ -37,8 +43,31 @@ def without_hold(plain: str, language: str) -> str:
 
 
 def without_call_sign(plain: str, language: str) -> str:
-    """A normalised text without the number that it calls the robot by, at its start: `unit four, go`."""
-    return form(language, "starting", "call_sign").sub("", plain, count=1)
+    """A normalised text without what it calls the robot by: a number at its start (`unit four, go`), or a name that
+    runs on into an order with an amount (豆豆你往后退半米).
+    """
+    rest = form(language, "starting", "call_sign").sub("", plain, count=1)
+    if form(language, "starting", "name") is NEVER:
+        return rest
+    parts, start = [], 0
+    for clause in clauses_of(rest):
+        called = _called(clause, language) if clause.measures else ()
+        if called:
+            parts.append(rest[start : called[0].start])
+            start = called[-1].start + len(called[-1].text)
+    return "".join((*parts, rest[start:]))
+
+
+def _called(clause: Clause, language: str) -> Sequence[Sign]:
+    """The words that nobody knows at the start of a clause, where who is meant to do the rest is called so."""
+    opened = len(list(itertools.takewhile(lambda sign: sign.label in _BEFORE_NAME, clause.signs)))
+    run = list(itertools.takewhile(lambda sign: sign.label == sign.text, clause.signs[opened:]))
+    after = clause.signs[opened + len(run) :][:1]
+    if not after or not run or len(run) > _LONGEST_NAME:
+        return ()
+    pronoun = len(run) > 1 and after[0].text[0] in load_table(language, "talk")["pronouns"]
+    name = form(language, "starting", "name").fullmatch("".join(sign.text for sign in run))
+    return run if pronoun or (name and after[0].moves) else ()
 
 
 def with_told_apart(plain: str, language: str) -> str:
