@@ -128,7 +128,7 @@ def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
     # `not before noon`; `if it is dry`; `sorry, 5 s`; what is not said to its end: 左转，那个，就是
     if (
         clause.denies
-        or _first_label(clause) == "condition"
+        or begins_condition(clause)
         or "correction" in labels
         or labels <= {"opening"}
     ):
@@ -137,8 +137,9 @@ def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
     return aside.odds >= (SURE_BOUND if is_bound else SURE_ASIDE)
 
 
-def _first_label(clause: Clause) -> str:
-    return next((sign.label for sign in clause.signs if sign.label not in _POLITE), "")
+def begins_condition(clause: Clause) -> bool:
+    """`if it is dry`: whether the order beside it may depend on it."""
+    return next((sign.label for sign in clause.signs if sign.label not in _POLITE), "") == "condition"
 
 
 def says_motion_alone(clause: Clause) -> bool:

@@ -1,0 +1,432 @@
+"""What may be left out of a text to find the order in it: what is told beside it, and words that nobody knows.
+
+A text is written or dictated without marks, too: `back up 8 inches ur on my screwdriver`. So each run of words between
+what is surely of the order is looked at as if marks set it off; `beside.py` says how likely that is an aside. Every
+number, way and word of motion stays, and so does each word that denies, bounds, compares or asks. What follows a
+number may be its unit, so that nothing is read without it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+from chatrobot.language.acts import read_acts
+from chatrobot.language.beside import BEARS, MAYBE_ASIDE, NO_ASIDE, asides
+from chatrobot.language.data_files import relation_words
+from chatrobot.language.gloss import MARK
+from chatrobot.language.lexicon import UNIT, lexicon
+from chatrobot.language.set_off import has_amount
+from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
+from chatrobot.language.typos import correct
+
+_MARKS = " ,.;:!?…。—~\n"
+_IDLE = frozenset({"VERB", "PLACE", "COUNTER"})
+"""Labels of words of motion that people say of other things, too; every other one is of the order."""
+_KEPT = (BINDING | DEPENDING | {"report", "sees", "did", "does", "doing", "past", "earlier"}) - {"please"}
+"""Labels of words that are never left out as words that nobody knows."""
+_BEARS = frozenset({"correction", "hypothetical", "question", *'"“”「」『』()'})
+"""Labels of words that bear on the order, so that no run with them is left out."""
+_BOUND = frozenset({"not", "later", "condition", "contrast"})
+"""Labels of words that may bear on the order: with one of them a run needs higher odds of an aside."""
+_SUBJECTS = frozenset({"mine", "kin", "other", "person", "thing", "joint", "verdict"})
+"""Labels of words of somebody else than the robot, who does what a run names."""
+_CLOSES = frozenset(
+    {
+        "UNIT",
+        "SECOND",
+        "DIR",
+        "ROT",
+        "SHAPE",
+        "FULLTURN",
+        "TIMES",
+        "FLAG",
+        "PACE",
+        "MULTIPLE",
+        "ROLE",
+        "PLACE",
+        "opening",
+        "please",
+    }
+)
+"""Labels of words that an order may end on, so that something may be told behind it."""
+_SAYS_NOTHING = frozenset({"opening", "request", "please", "hence"})
+_OPENS = frozenset({"opening", "hence", "joint", "conn"})
+_COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
+"""Labels of words after which a word that nobody knows may be a unit, or what is counted."""
+_EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
+_SIZES = (_EXTENTS | {"FLAG", "MULTIPLE", "COUNTER"}) - {"SHAPE"}
+_DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE", "ROLE", "PER", "FLAG", "MULTIPLE", "FULLTURN", "place"})
+_BARE = frozenset({"VERB", "PACE"})
+_TOLD = frozenset({"verdict", "does", "did"})
+_ENDS = frozenset({"UNIT", "SECOND", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES"})
+"""Labels of words that an order may end on."""
+_TELLS = _TOLD | {"past", "earlier", "report", "sees", "kin", "thing", "later"}
+_POINTING = frozenset({"FLAG", "MULTIPLE"})
+"""Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
+_WAYS = frozenset({"dir", "rot", "pace"})
+"""Kinds of words that are never left out as part of another."""
+_LEAST_OF_WAY = 4
+_MAKE = (("verb", "make"),)
+_SURE_BOUND = 1.0
+
+
+class Span(NamedTuple):
+    """Part of a text that may be left out, and the text without it.
+
+    `odds` are those of an aside; None of words that nobody knows. `points`: they only name the motion before.
+    `log_odds` are those of an order. `is_clause`: marks set it off.
+    """
+
+    text: str
+    said: str
+    odds: float | None = None
+    points: bool = False
+    log_odds: float = 0.0
+    is_clause: bool = False
+
+
+def place_of(part: str, text: str) -> range:
+    """Where `part` stands in the text, be it mistyped there; empty where it does not."""
+    said = r"\s*".join(map(re.escape, part.rstrip("…").split()))
+    found = re.search(said, text) if said else None
+    if found is None:
+        slips = (unit for unit in UNIT.finditer(text) if len(unit.group()) > 2)
+        found = next((unit for unit in slips if correct(unit.group()) == part), None)
+    return range(found.start(), found.end()) if found is not None else range(0)
+
+
+def told_spans(text: str, names: Names, at: range) -> list[Span]:
+    """Runs of words that may be said beside the order and touch what stands `at` a place, the likeliest first."""
+    found: dict[str, Span] = {}
+    for clause in clauses_of(text, names):
+        for begin, end in _runs(clause.signs):
+            start, stop = _extent(text, clause, begin, end)
+            if at and not (start < at.stop and at.start < stop):
+                continue
+            says = any(sign.label not in _SAYS_NOTHING for sign in clause.signs[begin:end])
+            span = _told(text, names, clause, begin, end) if at or says else None
+            if span is not None:
+                found.setdefault(span.text, span)
+    return sorted(found.values(), key=lambda span: -(span.odds or 0.0))
+
+
+def _runs(signs: Sequence[Sign]) -> Iterator[tuple[int, int]]:
+    """Where each run of words begins and ends that may be no part of the order, the longer ones first."""
+    held = [_is_of_order(signs, i) for i in range(len(signs))]
+    begin = 0
+    while begin < len(signs):
+        end = begin
+        while end < len(signs) and not held[end]:
+            end += 1
+        begins = [begin, *(i + 1 for i in range(begin, end - 1) if _ends_order(signs[i]))]
+        ends = [end, *(i for i in range(begin + 1, end) if _begins_order(signs[i]))]
+        yield from ((i, j) for i in begins for j in ends if i < j)
+        begin = end + 1
+
+
+def _is_of_order(signs: Sequence[Sign], i: int) -> bool:
+    if signs[i].label == "NUMBER" and i + 1 < len(signs) and _is_unknown(signs[i + 1]):
+        return correct(signs[i + 1].text) != signs[i + 1].text  # it counts something else: 四年级
+    return signs[i].moves and signs[i].label.isupper() and signs[i].label not in _IDLE
+
+
+def _ends_order(sign: Sign) -> bool:
+    return sign.label in ("PLACE", "opening", "please")
+
+
+def _begins_order(sign: Sign) -> bool:
+    return sign.label in ("VERB", "request", "please") or _goes_on(sign)
+
+
+def _told(text: str, names: Names, clause: Clause, begin: int, end: int) -> Span | None:
+    """A run of a clause as what is told beside the order; None where it may be part of it, or bear on it."""
+    signs, before, after = clause.signs[begin:end], clause.signs[:begin], clause.signs[end:]
+    if _may_bear(signs, before, after) or not (_stands_behind(signs, before) and _stands_ahead(signs, after)):
+        return None
+    start, stop = _extent(text, clause, begin, end)
+    odds, log_odds = _odds(text, names, start, stop)
+    is_clause = not (before or after)
+    is_idle = _first_verb(signs) < 0 and bool(not before or signs[0].label in _SUBJECTS)
+    is_bound = any(sign.label in _BOUND for sign in signs)
+    if odds < (_SURE_BOUND if is_bound else NO_ASIDE if is_idle else MAYBE_ASIDE):
+        return None
+    said = text[start:stop].strip(_MARKS)
+    return Span(_without(text, start, stop), said, odds, False, log_odds, is_clause)
+
+
+def _may_bear(signs: Sequence[Sign], before: Sequence[Sign], after: Sequence[Sign]) -> bool:
+    """Whether a run may deny, bound, ask for, or count what is ordered, or name what else is to be moved."""
+    labels = {sign.label for sign in signs}
+    in_scope = any(sign.label in _BEARS | _BOUND for sign in before)
+    moved = any(sign.text in relation_words("moved") for sign in (*before, *signs))
+    if signs[0].label not in _SUBJECTS:
+        named = any(names_way(unit) for sign in signs for unit in sign.text.split("_"))
+        moved |= named or bool(before and labels & _COUNTED)
+    if after and after[0].text in relation_words("parting"):
+        labels -= {"question"}
+    return in_scope or moved or bool(labels & _BEARS) or signs[0].label == "condition"
+
+
+def _stands_behind(signs: Sequence[Sign], before: Sequence[Sign]) -> bool:
+    """Whether the order may be told before a run, and the run is no part of it."""
+    if not before:
+        return True
+    is_part = _leads(signs[0]) or _goes_on(signs[0]) or _is_meant(signs)
+    return before[-1].label in _CLOSES and not is_part
+
+
+def _stands_ahead(signs: Sequence[Sign], after: Sequence[Sign]) -> bool:
+    """Whether what stands behind a run is an order by itself: not `that was a nice | square`, `my brother | drove`."""
+    if not after or after[0].text in relation_words("parting"):
+        return True
+    if _leads(signs[0]) or _is_meant(signs):
+        return False
+    if signs[-1].label in _SUBJECTS | _TOLD and not (len(signs) > 2 and after[0].label in _SAYS_NOTHING):
+        return False
+    if _begins_order(after[0]):
+        return True
+    return after[0].label in ("DIR", "PACE", "ROT") and has_amount(Clause(tuple(after), "", 0, 0))
+
+
+def _is_meant(signs: Sequence[Sign]) -> bool:
+    """Whether the robot may be meant to do what the run names: nobody else is said to."""
+    at = _first_verb(signs)
+    return at >= 0 and not any(sign.label in _SUBJECTS for sign in signs[:at])
+
+
+def _first_verb(signs: Sequence[Sign]) -> int:
+    return next((i for i, sign in enumerate(signs) if sign.moves and sign.label in ("VERB", "PLACE")), -1)
+
+
+def _leads(sign: Sign) -> bool:
+    """Whether it says how the motion before lies to something: `past the fern`, `via the hall`."""
+    return sign.text in _relations()
+
+
+@lru_cache(maxsize=1)
+def _relations() -> frozenset[str]:
+    return relation_words("words") | relation_words("towards") | relation_words("restricting")
+
+
+def _odds(text: str, names: Names, start: int, stop: int) -> tuple[float, float]:
+    """The odds of an aside and of an order of part of a text, as if marks set it off."""
+    head, said, rest = text[:start].rstrip(" ,"), text[start:stop].strip(" ,"), text[stop:].lstrip(" ,")
+    before = "" if not head else " " if head[-1] in _MARKS else ", "
+    after = "" if not rest or rest[0] in _MARKS or said[-1] in _MARKS else ","
+    at = len(head + before)
+    reads = read_acts(f"{head}{before}{said}{after} {rest}".strip(), names)
+    read = next((read for read in reads if read.clause.start <= at < read.clause.stop), None)
+    aside = asides(reads).get(read.clause.start) if read is not None else None
+    return (aside.odds, read.log_odds) if read is not None and aside is not None else (BEARS, 0.0)
+
+
+def _extent(text: str, clause: Clause, begin: int, end: int) -> tuple[int, int]:
+    """Where those signs of a clause begin and end in the text; with its mark where nothing else is left of it."""
+    start = clause.signs[begin].start
+    is_end = end == len(clause.signs)
+    stop = clause.stop if is_end else clause.signs[end].start
+    if is_end and begin:
+        stop = start + len(text[start:stop].rstrip(_MARKS))
+    return start, stop
+
+
+def _without(text: str, start: int, stop: int) -> str:
+    return " ".join(f"{text[:start]} {text[stop:]}".split()).strip(" ,;:")
+
+
+def with_tails_parted(plain: str, names: Names = ()) -> str:
+    """A normalised text with a comma between the last word of motion of each clause and what nobody knows behind it."""
+    parts, start = [], 0
+    for clause in clauses_of(plain, names):
+        at = _tail(clause)
+        if at is not None:
+            parts.append(plain[start:at].rstrip() + ", ")
+            start = at
+    return "".join((*parts, plain[start:]))
+
+
+def _tail(clause: Clause) -> int | None:
+    """Where what nobody knows begins behind the last word of motion of a clause that tells an amount, if it does."""
+    signs = clause.signs
+    idle = _IDLE - {"COUNTER"}
+    last = max((i for i, sign in enumerate(signs) if sign.moves and sign.label not in idle), default=-1)
+    told, tail = signs[: last + 1], signs[last + 1 :]
+    if not has_amount(clause) or signs[last].label not in _ENDS or len(tail) < 2:
+        return None
+    if not any(map(_is_unknown, tail)) or any(map(_is_unknown, told)) or _leads(tail[0]) or _goes_on(tail[0]):
+        return None
+    if any(sign.label in _TELLS for sign in told):
+        return None
+    if any(sign.label in _TOLD | {"past"} for sign in tail[:2]):
+        return None
+    bears = any(sign.label in _BEARS | _BOUND or names_way(sign.text) for sign in tail)
+    return None if bears else tail[0].start
+
+
+def _is_unknown(sign: Sign) -> bool:
+    return sign.label == sign.text and not sign.moves
+
+
+def _goes_on(sign: Sign) -> bool:
+    """`go forward 1 m and frobnicate`: whether what follows may be another order."""
+    return sign.label in _OPENS or _kind(sign) == "conn"
+
+
+def _kind(sign: Sign) -> str:
+    return lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))[0][0]
+
+
+def strange_spans(text: str, names: Names, at: range) -> Iterator[Span]:
+    """The word that nobody knows which stands `at` a place: alone, then with the small words around it."""
+    clauses = clauses_of(text, names)
+    clause = next((one for one in clauses if at and one.start <= at.start < one.stop), None)
+    if is_bound(text, names):
+        return
+    signs = clause.signs if clause is not None else ()
+    held = [i for i, sign in enumerate(signs) if at.start <= sign.start < at.stop]
+    if clause is None or not held or not all(_is_light(signs[i]) for i in held):
+        return
+    first, after = held[0], held[-1] + 1
+    if any(sign.label == "contrast" for sign in signs) or _is_needed(signs, first, after):
+        return
+    opened = _opened(signs, first)
+    if opened is not None:
+        if not any(sign.moves and sign.label in _SIZES for sign in signs[opened : after + 1]):
+            yield _span(text, clause, opened, after)
+        return
+    begin, end = first, after
+    while begin and _is_light(signs[begin - 1]):
+        begin -= 1
+    while end < len(signs) and _is_light(signs[end]):
+        end += 1
+    if _is_counted(signs, first) or _is_number(signs, end) or not (begin or _says_how_much(signs)):
+        return
+    points = bool(begin) and signs[begin - 1].label in _POINTING
+    points &= all(sign.text in relation_words("naming") for sign in signs[begin:first])
+    if all(_is_strange(signs[i], names) for i in held):
+        yield _span(text, clause, first, after, points=points)
+    is_whole = begin == 0 and end == len(signs)
+    if (end - begin > len(held) or is_whole) and not _is_counted(signs, begin):
+        yield _span(text, clause, begin, end, points=points or is_whole)
+
+
+def _span(text: str, clause: Clause, begin: int, end: int, *, points: bool = False) -> Span:
+    start, stop = _extent(text, clause, begin, end)
+    return Span(_without(text, start, stop), text[start:stop].strip(_MARKS), points=points)
+
+
+def _opened(signs: Sequence[Sign], at: int) -> int | None:
+    """Where a phrase begins that only says what it is like, or what for, and ends at `at`: `like a proper ring main`.
+
+    None where there is none, or all of it may be left out word by word.
+    """
+    opened = next((i for i, sign in enumerate(signs[:at]) if sign.text in relation_words("opening")), None)
+    return opened if opened is not None and any(sign.moves for sign in signs[opened : at + 2]) else None
+
+
+def _is_needed(signs: Sequence[Sign], at: int, after: int) -> bool:
+    """Whether the words from `at` on may be what is done, how much of it, or with what: `wait for zorblax`.
+
+    Or something is said of them (`the zorblax is 2 m long`), or they make another word of their neighbour: 收回.
+    """
+    said = signs[at].text if not signs[at].text.isascii() else ""
+    if any(word in said for word in relation_words("words") if not word.isascii()):
+        return True
+    if at and _kind(signs[at - 1]) == "conn" and not any(s.label in ("UNIT", "FLAG") for s in signs[at:]):
+        return True  # what else is to be done: `and blorp the frobnicator`
+    if after < len(signs):
+        compound = signs[after].label == "VERB" and len(signs[after].text) == 1 and len(signs) == after + 1
+        if compound or signs[after].label in _TOLD:
+            return True
+    moving = {sign.label for sign in signs if sign.moves}
+    if ("VERB" in moving and moving <= _BARE) or (
+        moving == {"SHAPE"} and at and signs[at - 1].label == "SHAPE"
+    ):
+        return True
+    counts = moving & _COUNTED and not any(label in _DOES or label.islower() for label in moving)
+    return bool(counts and "VERB" not in moving) or _is_of_something_else(signs, at)
+
+
+def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
+    """Whether the word at `at` is what else is moved, or what it is said of: 把椅子往左挪, `that gate swings left`.
+
+    Or it says where the motion is done: `around the fern`.
+    """
+    if any(sign.text in relation_words("moved") for sign in signs[:at]):
+        return True
+    begin = at
+    while begin and _is_light(signs[begin - 1]):
+        begin -= 1
+    before = signs[begin - 1] if begin else None
+    if before and not before.moves and before.text in relation_words("words") - relation_words("towards"):
+        return True
+    if not any(sign.text in relation_words("articles") for sign in signs[begin:at]):
+        return False
+    if before and before.label == "VERB":  # what is drawn is no thing
+        return lexicon().words.get(tuple(before.text.split("_"))) != _MAKE
+    first = next((i for i, sign in enumerate(signs) if sign.label != "opening"), 0)
+    return not begin and signs[first].text in relation_words("articles")
+
+
+def _is_counted(signs: Sequence[Sign], at: int) -> bool:
+    """Whether a number stands before it, be it with an article: `half a knot`."""
+    while at and signs[at - 1].label == "NUMBER" and not signs[at - 1].moves:
+        at -= 1
+    return at > 0 and signs[at - 1].moves and signs[at - 1].label in _COUNTED
+
+
+def _is_number(signs: Sequence[Sign], at: int) -> bool:
+    """Whether a number without a unit stands there: `forklift 3`."""
+    if at >= len(signs) or signs[at].label != "NUMBER" or not signs[at].moves:
+        return False
+    return next((sign.label for sign in signs[at:] if sign.label not in _COUNTED), "") not in _EXTENTS
+
+
+def _says_how_much(signs: Sequence[Sign]) -> bool:
+    """Whether no number is without its unit, where a word that nobody knows stands for the verb: `change step 2`."""
+    moving = {sign.label for sign in signs if sign.moves}
+    return not moving & _COUNTED or bool(moving & {"UNIT", "VERB", "SHAPE"})
+
+
+def _is_light(sign: Sign) -> bool:
+    """Whether it may be left out, if it says nothing that anybody knows: neither of motion nor what bears on it."""
+    if sign.moves or sign.is_name or sign.label in _KEPT:
+        return False
+    return all(
+        (unit[:1].isalpha() or unit == "-") and unit not in relation_words("words") and not names_way(unit)
+        for unit in (sign.text.replace("_", "") if not sign.text.isascii() else "", *sign.text.split("_"))
+        if unit
+    )
+
+
+def names_way(unit: str) -> bool:
+    """Whether a way is part of a word that nobody knows: `astarboard`, `rechtsseitig`."""
+    word = unit.removesuffix(MARK)
+    ways = _ways()
+    return (word,) not in lexicon().words and (word.startswith(ways) or word.endswith(ways))
+
+
+@lru_cache(maxsize=1)
+def _ways() -> tuple[str, ...]:
+    known = (key[0] for key, meaning in lexicon().words.items() if len(key) == 1 and meaning[0][0] in _WAYS)
+    latin = {word for word in known if word.isascii() and len(word) >= _LEAST_OF_WAY}
+    return tuple(latin | relation_words("ways"))
+
+
+def _is_strange(sign: Sign, names: Names) -> bool:
+    words = lexicon().words
+    return not any((unit,) in words or (unit,) in names for unit in sign.text.split("_"))
+
+
+def is_bound(text: str, names: Names) -> bool:
+    """Whether a text has words that quote, deny or depend, so that no single word can be left out beside them."""
+    labels = {sign.label for clause in clauses_of(text, names) for sign in clause.signs}
+    return bool(labels & ((_BEARS | {"not", "condition"}) - {"question"}))
+
+
+def is_complete(text: str, names: Names) -> bool:
+    """Whether what is left says how much, or how often."""
+    return any(sign.label in _EXTENTS for clause in clauses_of(text, names) for sign in clause.signs)
