@@ -58,11 +58,8 @@ _COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
 """Labels of words after which a word that nobody knows may be a unit, or what is counted."""
 _EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
 _SIZES = (_EXTENTS | {"FLAG", "MULTIPLE", "COUNTER"}) - {"SHAPE"}
-_DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE", "ROLE", "PER", "FLAG", "MULTIPLE", "FULLTURN", "place"})
 _BARE = frozenset({"VERB", "PACE"})
 _TOLD = frozenset({"verdict", "does", "did"})
-_ENDS = frozenset({"UNIT", "SECOND", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES"})
-"""Labels of words that an order may end on."""
 _TELLS = _TOLD | {"past", "earlier", "report", "sees", "kin", "thing", "later"}
 _POINTING = frozenset({"FLAG", "MULTIPLE"})
 """Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
@@ -70,7 +67,7 @@ _WAYS = frozenset({"dir", "rot", "pace"})
 """Kinds of words that are never left out as part of another."""
 _LEAST_OF_WAY = 4
 _MAKE = (("verb", "make"),)
-_SURE_BOUND = 1.0
+_SURE_BOUND, NO_PURPOSE = 1.0, -4.0
 
 
 class Span(NamedTuple):
@@ -125,6 +122,10 @@ def _runs(signs: Sequence[Sign]) -> Iterator[tuple[int, int]]:
         ends = [end, *(i for i in range(begin + 1, end) if _begins_order(signs[i]))]
         yield from ((i, j) for i in begins for j in ends if i < j)
         begin = end + 1
+    opened = (i for i, sign in enumerate(signs) if i and sign.text in relation_words("opening"))
+    for i in opened:  # `for the wide shot`: what it is like, or what for
+        if not any(sign.moves and sign.label in _SIZES for sign in signs[i:]):
+            yield i, len(signs)
 
 
 def _is_of_order(signs: Sequence[Sign], i: int) -> bool:
@@ -151,7 +152,10 @@ def _told(text: str, names: Names, clause: Clause, begin: int, end: int) -> Span
     is_clause = not (before or after)
     is_idle = _first_verb(signs) < 0 and bool(not before or signs[0].label in _SUBJECTS)
     is_bound = any(sign.label in _BOUND for sign in signs)
-    if odds < (_SURE_BOUND if is_bound else NO_ASIDE if is_idle else MAYBE_ASIDE):
+    least = NO_ASIDE if is_idle else MAYBE_ASIDE
+    if before and not after and signs[0].text in relation_words("opening"):
+        least = NO_PURPOSE
+    if odds < (_SURE_BOUND if is_bound else least):
         return None
     said = text[start:stop].strip(_MARKS)
     return Span(_without(text, start, stop), said, odds, False, log_odds, is_clause)
@@ -164,7 +168,7 @@ def _may_bear(signs: Sequence[Sign], before: Sequence[Sign], after: Sequence[Sig
     moved = any(sign.text in relation_words("moved") for sign in (*before, *signs))
     if signs[0].label not in _SUBJECTS:
         named = any(names_way(unit) for sign in signs for unit in sign.text.split("_"))
-        moved |= named or bool(before and labels & _COUNTED)
+        moved |= named or bool(before and any(sign.moves and sign.label in _COUNTED for sign in signs))
     if after and after[0].text in relation_words("parting"):
         labels -= {"question"}
     return in_scope or moved or bool(labels & _BEARS) or signs[0].label == "condition"
@@ -251,19 +255,15 @@ def with_tails_parted(plain: str, names: Names = ()) -> str:
 def _tail(clause: Clause) -> int | None:
     """Where what nobody knows begins behind the last word of motion of a clause that tells an amount, if it does."""
     signs = clause.signs
-    idle = _IDLE - {"COUNTER"}
-    last = max((i for i, sign in enumerate(signs) if sign.moves and sign.label not in idle), default=-1)
+    last = max((i for i, s in enumerate(signs) if s.moves and s.label not in ("VERB", "PLACE")), default=-1)
     told, tail = signs[: last + 1], signs[last + 1 :]
-    if not has_amount(clause) or signs[last].label not in _ENDS or len(tail) < 2:
+    if len(tail) < 2 or not has_amount(clause) or not _stands_behind(tail, told) or _may_bear(tail, told, ()):
         return None
-    if not any(map(_is_unknown, tail)) or any(map(_is_unknown, told)) or _leads(tail[0]) or _goes_on(tail[0]):
+    if not any(map(_is_unknown, tail)) or any(map(_is_unknown, told)):
         return None
-    if any(sign.label in _TELLS for sign in told):
-        return None
-    if any(sign.label in _TOLD | {"past"} for sign in tail[:2]):
-        return None
-    bears = any(sign.label in _BEARS | _BOUND or names_way(sign.text) for sign in tail)
-    return None if bears else tail[0].start
+    predicated = any(sign.label in _TOLD | {"past"} for sign in tail[:2])
+    bound = any(sign.label in _BOUND for sign in tail) or any(sign.label in _TELLS for sign in told)
+    return None if predicated or bound else tail[0].start
 
 
 def _is_unknown(sign: Sign) -> bool:
@@ -292,17 +292,14 @@ def strange_spans(text: str, names: Names, at: range) -> Iterator[Span]:
     first, after = held[0], held[-1] + 1
     if any(sign.label == "contrast" for sign in signs) or _is_needed(signs, first, after):
         return
-    opened = _opened(signs, first)
-    if opened is not None:
-        if not any(sign.moves and sign.label in _SIZES for sign in signs[opened : after + 1]):
-            yield _span(text, clause, opened, after)
-        return
     begin, end = first, after
     while begin and _is_light(signs[begin - 1]):
         begin -= 1
     while end < len(signs) and _is_light(signs[end]):
         end += 1
-    if _is_counted(signs, first) or _is_number(signs, end) or not (begin or _says_how_much(signs)):
+    moving = {sign.label for sign in signs if sign.moves}
+    does = begin or not moving & _COUNTED or moving & {"UNIT", "VERB", "SHAPE"}  # not `change step 2`
+    if not does or _is_counted(signs, first) or _is_number(signs, end):
         return
     points = bool(begin) and signs[begin - 1].label in _POINTING
     points &= all(sign.text in relation_words("naming") for sign in signs[begin:first])
@@ -318,36 +315,20 @@ def _span(text: str, clause: Clause, begin: int, end: int, *, points: bool = Fal
     return Span(_without(text, start, stop), text[start:stop].strip(_MARKS), points=points)
 
 
-def _opened(signs: Sequence[Sign], at: int) -> int | None:
-    """Where a phrase begins that only says what it is like, or what for, and ends at `at`: `like a proper ring main`.
-
-    None where there is none, or all of it may be left out word by word.
-    """
-    opened = next((i for i, sign in enumerate(signs[:at]) if sign.text in relation_words("opening")), None)
-    return opened if opened is not None and any(sign.moves for sign in signs[opened : at + 2]) else None
-
-
 def _is_needed(signs: Sequence[Sign], at: int, after: int) -> bool:
     """Whether the words from `at` on may be what is done, how much of it, or with what: `wait for zorblax`.
 
-    Or something is said of them (`the zorblax is 2 m long`), or they make another word of their neighbour: 收回.
+    Or something is said of them: `the zorblax is 2 m long`.
     """
     said = signs[at].text if not signs[at].text.isascii() else ""
     if any(word in said for word in relation_words("words") if not word.isascii()):
         return True
     if at and _kind(signs[at - 1]) == "conn" and not any(s.label in ("UNIT", "FLAG") for s in signs[at:]):
         return True  # what else is to be done: `and blorp the frobnicator`
-    if after < len(signs):
-        compound = signs[after].label == "VERB" and len(signs[after].text) == 1 and len(signs) == after + 1
-        if compound or signs[after].label in _TOLD:
-            return True
-    moving = {sign.label for sign in signs if sign.moves}
-    if ("VERB" in moving and moving <= _BARE) or (
-        moving == {"SHAPE"} and at and signs[at - 1].label == "SHAPE"
-    ):
+    if after < len(signs) and signs[after].label in _TOLD:
         return True
-    counts = moving & _COUNTED and not any(label in _DOES or label.islower() for label in moving)
-    return bool(counts and "VERB" not in moving) or _is_of_something_else(signs, at)
+    moving = {sign.label for sign in signs if sign.moves}
+    return ("VERB" in moving and moving <= _BARE) or _is_of_something_else(signs, at)
 
 
 def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
@@ -383,12 +364,6 @@ def _is_number(signs: Sequence[Sign], at: int) -> bool:
     if at >= len(signs) or signs[at].label != "NUMBER" or not signs[at].moves:
         return False
     return next((sign.label for sign in signs[at:] if sign.label not in _COUNTED), "") not in _EXTENTS
-
-
-def _says_how_much(signs: Sequence[Sign]) -> bool:
-    """Whether no number is without its unit, where a word that nobody knows stands for the verb: `change step 2`."""
-    moving = {sign.label for sign in signs if sign.moves}
-    return not moving & _COUNTED or bool(moving & {"UNIT", "VERB", "SHAPE"})
 
 
 def _is_light(sign: Sign) -> bool:
