@@ -126,12 +126,7 @@ def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
         return False
     labels = {sign.label for sign in clause.signs}
     # `not before noon`; `if it is dry`; `sorry, 5 s`; what is not said to its end: 左转，那个，就是
-    if (
-        clause.denies
-        or begins_condition(clause)
-        or "correction" in labels
-        or labels <= {"opening"}
-    ):
+    if clause.denies or begins_condition(clause) or "correction" in labels or labels <= {"opening"}:
         return False
     is_bound = clause.tells or _is_bound(clause) or len(clause.signs) == 1
     return aside.odds >= (SURE_BOUND if is_bound else SURE_ASIDE)

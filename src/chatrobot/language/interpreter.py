@@ -60,7 +60,7 @@ from chatrobot.language.starting import (
     without_call_sign,
     without_hold,
 )
-from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
+from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
@@ -158,7 +158,9 @@ class OfflineInterpreter:
 
         names, plain = names_in(reading.context), normalise(text)
         unit = unit_after(reading.context)
-        return likeliest(plain, names, reading.language, problem, read, read_anew, unit)
+        found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
+        is_offer = found is not None and found.plan is None
+        return None if is_offer and calls_somebody(read_acts(plain, names), reading.language) else found
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""

@@ -1,9 +1,8 @@
-"""What may be left out of a text to find the order in it: what is told beside it, and words that nobody knows.
+"""What may be left out of a text to find the order in it: what is told beside it, with marks or without.
 
 A text is written or dictated without marks, too: `back up 8 inches ur on my screwdriver`. So each run of words between
 what is surely of the order is looked at as if marks set it off; `beside.py` says how likely that is an aside. Every
-number, way and word of motion stays, and so does each word that denies, bounds, compares or asks. What follows a
-number may be its unit, so that nothing is read without it.
+amount and way stays, and so does each word that denies, bounds, asks or puts right.
 """
 
 from __future__ import annotations
@@ -14,25 +13,25 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from chatrobot.language.acts import read_acts
-from chatrobot.language.beside import BEARS, MAYBE_ASIDE, NO_ASIDE, asides
+from chatrobot.language.beside import BEARS, MAYBE_ASIDE, NO_ASIDE, SURELY_NOT_MEANT, asides
 from chatrobot.language.data_files import relation_words
 from chatrobot.language.gloss import MARK
 from chatrobot.language.lexicon import UNIT, lexicon
 from chatrobot.language.set_off import has_amount
-from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
+from chatrobot.language.signs import BINDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.typos import correct
 
-_MARKS = " ,.;:!?…。—~\n"
+MARKS = " ,.;:!?…。—~\n"
 _IDLE = frozenset({"VERB", "PLACE", "COUNTER"})
 """Labels of words of motion that people say of other things, too; every other one is of the order."""
-_KEPT = (BINDING | DEPENDING | {"report", "sees", "did", "does", "doing", "past", "earlier"}) - {"please"}
-"""Labels of words that are never left out as words that nobody knows."""
-_BEARS = frozenset({"correction", "hypothetical", "question", *'"“”「」『』()'})
+BEARING = frozenset({"correction", "hypothetical", "question", *'"“”「」『』()'})
 """Labels of words that bear on the order, so that no run with them is left out."""
-_BOUND = frozenset({"not", "later", "condition", "contrast"})
+_BOUND = frozenset({"not", "later", "condition", "contrast", "report", "sees", "supposed"})
 """Labels of words that may bear on the order: with one of them a run needs higher odds of an aside."""
 _SUBJECTS = frozenset({"mine", "kin", "other", "person", "thing", "joint", "verdict"})
 """Labels of words of somebody else than the robot, who does what a run names."""
+_TELLING = (BINDING - {"ask"}) | {"report", "later", "sees", "supposed", "earlier", "did"}
+"""Labels of words that may tell of a motion: with one of them before it, what seems an order may be told of."""
 _CLOSES = frozenset(
     {
         "UNIT",
@@ -54,19 +53,19 @@ _CLOSES = frozenset(
 """Labels of words that an order may end on, so that something may be told behind it."""
 _SAYS_NOTHING = frozenset({"opening", "request", "please", "hence"})
 _OPENS = frozenset({"opening", "hence", "joint", "conn"})
-_COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
+COUNTED = frozenset({"NUMBER", "FRACTION", "SCALE", "COUNTER"})
 """Labels of words after which a word that nobody knows may be a unit, or what is counted."""
-_EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
-_SIZES = (_EXTENTS | {"FLAG", "MULTIPLE", "COUNTER"}) - {"SHAPE"}
-_BARE = frozenset({"VERB", "PACE"})
-_TOLD = frozenset({"verdict", "does", "did"})
-_TELLS = _TOLD | {"past", "earlier", "report", "sees", "kin", "thing", "later"}
+EXTENTS = frozenset({"NUMBER", "UNIT", "DIR", "ROT", "SHAPE", "FULLTURN", "TIMES", "FRACTION", "SCALE"})
+_SIZES = (EXTENTS | {"FLAG", "MULTIPLE", "COUNTER"}) - {"SHAPE"}
+TOLD = frozenset({"verdict", "does", "did"})
+_GOVERNS = _SUBJECTS | TOLD | {"to", "can"}
+"""Labels of words that a verb right behind them belongs to."""
+_TELLS = TOLD | {"past", "earlier", "report", "sees", "kin", "thing", "later"}
 _POINTING = frozenset({"FLAG", "MULTIPLE"})
-"""Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
+"""Labels of words that point at the motion before."""
 _WAYS = frozenset({"dir", "rot", "pace"})
 """Kinds of words that are never left out as part of another."""
 _LEAST_OF_WAY = 4
-_MAKE = (("verb", "make"),)
 _SURE_BOUND, NO_PURPOSE = 1.0, -4.0
 
 
@@ -74,7 +73,7 @@ class Span(NamedTuple):
     """Part of a text that may be left out, and the text without it.
 
     `odds` are those of an aside; None of words that nobody knows. `points`: they only name the motion before.
-    `log_odds` are those of an order. `is_clause`: marks set it off.
+    `log_odds` are those of an order. `tells`: marks set it off, or what stands behind it may be told of.
     """
 
     text: str
@@ -82,7 +81,7 @@ class Span(NamedTuple):
     odds: float | None = None
     points: bool = False
     log_odds: float = 0.0
-    is_clause: bool = False
+    tells: bool = False
 
 
 def place_of(part: str, text: str) -> range:
@@ -100,7 +99,7 @@ def told_spans(text: str, names: Names, at: range) -> list[Span]:
     found: dict[str, Span] = {}
     for clause in clauses_of(text, names):
         for begin, end in _runs(clause.signs):
-            start, stop = _extent(text, clause, begin, end)
+            start, stop = extent(text, clause, begin, end)
             if at and not (start < at.stop and at.start < stop):
                 continue
             says = any(sign.label not in _SAYS_NOTHING for sign in clause.signs[begin:end])
@@ -147,9 +146,15 @@ def _told(text: str, names: Names, clause: Clause, begin: int, end: int) -> Span
     signs, before, after = clause.signs[begin:end], clause.signs[:begin], clause.signs[end:]
     if _may_bear(signs, before, after) or not (_stands_behind(signs, before) and _stands_ahead(signs, after)):
         return None
-    start, stop = _extent(text, clause, begin, end)
+    start, stop = extent(text, clause, begin, end)
     odds, log_odds = _odds(text, names, start, stop)
-    is_clause = not (before or after)
+    is_parted = bool(after) and after[0].text in relation_words("parting")
+    tells = (
+        bool(after)
+        and not is_parted
+        and (signs[0].label in ("ask", "does") or any(sign.label in _TELLING for sign in signs))
+    )
+    tells |= not (before or after) and odds < SURELY_NOT_MEANT
     is_idle = _first_verb(signs) < 0 and bool(not before or signs[0].label in _SUBJECTS)
     is_bound = any(sign.label in _BOUND for sign in signs)
     least = NO_ASIDE if is_idle else MAYBE_ASIDE
@@ -157,28 +162,29 @@ def _told(text: str, names: Names, clause: Clause, begin: int, end: int) -> Span
         least = NO_PURPOSE
     if odds < (_SURE_BOUND if is_bound else least):
         return None
-    said = text[start:stop].strip(_MARKS)
-    return Span(_without(text, start, stop), said, odds, False, log_odds, is_clause)
+    said = text[start:stop].strip(MARKS)
+    return Span(without(text, start, stop), said, odds, False, log_odds, tells)
 
 
 def _may_bear(signs: Sequence[Sign], before: Sequence[Sign], after: Sequence[Sign]) -> bool:
     """Whether a run may deny, bound, ask for, or count what is ordered, or name what else is to be moved."""
     labels = {sign.label for sign in signs}
-    in_scope = any(sign.label in _BEARS | _BOUND for sign in before)
+    in_scope = any(sign.label in BEARING | _BOUND for sign in before)
     moved = any(sign.text in relation_words("moved") for sign in (*before, *signs))
     if signs[0].label not in _SUBJECTS:
         named = any(names_way(unit) for sign in signs for unit in sign.text.split("_"))
-        moved |= named or bool(before and any(sign.moves and sign.label in _COUNTED for sign in signs))
+        moved |= named or bool(before and any(sign.moves and sign.label in COUNTED for sign in signs))
     if after and after[0].text in relation_words("parting"):
         labels -= {"question"}
-    return in_scope or moved or bool(labels & _BEARS) or signs[0].label == "condition"
+    return in_scope or moved or bool(labels & BEARING) or signs[0].label == "condition"
 
 
 def _stands_behind(signs: Sequence[Sign], before: Sequence[Sign]) -> bool:
     """Whether the order may be told before a run, and the run is no part of it."""
     if not before:
         return True
-    is_part = _leads(signs[0]) or _goes_on(signs[0]) or _is_meant(signs)
+    named = before[-1].label in _POINTING and signs[0].text in relation_words("articles") and len(signs) < 3
+    is_part = named or _leads(signs[0]) or _goes_on(signs[0]) or _is_meant(signs) or signs[0].label == "did"
     return before[-1].label in _CLOSES and not is_part
 
 
@@ -186,9 +192,13 @@ def _stands_ahead(signs: Sequence[Sign], after: Sequence[Sign]) -> bool:
     """Whether what stands behind a run is an order by itself: not `that was a nice | square`, `my brother | drove`."""
     if not after or after[0].text in relation_words("parting"):
         return True
-    if _leads(signs[0]) or _is_meant(signs):
+    last = signs[-1].label
+    if last in _BOUND or _leads(signs[0]) or _is_meant(signs):
         return False
-    if signs[-1].label in _SUBJECTS | _TOLD and not (len(signs) > 2 and after[0].label in _SAYS_NOTHING):
+    if after[0].label in _POINTING:  # not `the turn | again`
+        named = len(signs) > 1 and signs[-2].text in relation_words("articles")
+        return last not in _SUBJECTS and not named
+    if last in _GOVERNS and not (len(signs) > 2 and after[0].label in _SAYS_NOTHING):
         return False
     if _begins_order(after[0]):
         return True
@@ -218,8 +228,8 @@ def _relations() -> frozenset[str]:
 def _odds(text: str, names: Names, start: int, stop: int) -> tuple[float, float]:
     """The odds of an aside and of an order of part of a text, as if marks set it off."""
     head, said, rest = text[:start].rstrip(" ,"), text[start:stop].strip(" ,"), text[stop:].lstrip(" ,")
-    before = "" if not head else " " if head[-1] in _MARKS else ", "
-    after = "" if not rest or rest[0] in _MARKS or said[-1] in _MARKS else ","
+    before = "" if not head else " " if head[-1] in MARKS else ", "
+    after = "" if not rest or rest[0] in MARKS or said[-1] in MARKS else ","
     at = len(head + before)
     reads = read_acts(f"{head}{before}{said}{after} {rest}".strip(), names)
     read = next((read for read in reads if read.clause.start <= at < read.clause.stop), None)
@@ -227,17 +237,17 @@ def _odds(text: str, names: Names, start: int, stop: int) -> tuple[float, float]
     return (aside.odds, read.log_odds) if read is not None and aside is not None else (BEARS, 0.0)
 
 
-def _extent(text: str, clause: Clause, begin: int, end: int) -> tuple[int, int]:
+def extent(text: str, clause: Clause, begin: int, end: int) -> tuple[int, int]:
     """Where those signs of a clause begin and end in the text; with its mark where nothing else is left of it."""
     start = clause.signs[begin].start
     is_end = end == len(clause.signs)
     stop = clause.stop if is_end else clause.signs[end].start
     if is_end and begin:
-        stop = start + len(text[start:stop].rstrip(_MARKS))
+        stop = start + len(text[start:stop].rstrip(MARKS))
     return start, stop
 
 
-def _without(text: str, start: int, stop: int) -> str:
+def without(text: str, start: int, stop: int) -> str:
     return " ".join(f"{text[:start]} {text[stop:]}".split()).strip(" ,;:")
 
 
@@ -261,7 +271,7 @@ def _tail(clause: Clause) -> int | None:
         return None
     if not any(map(_is_unknown, tail)) or any(map(_is_unknown, told)):
         return None
-    predicated = any(sign.label in _TOLD | {"past"} for sign in tail[:2])
+    predicated = any(sign.label in TOLD | {"past"} for sign in tail[:2])
     bound = any(sign.label in _BOUND for sign in tail) or any(sign.label in _TELLS for sign in told)
     return None if predicated or bound else tail[0].start
 
@@ -272,109 +282,11 @@ def _is_unknown(sign: Sign) -> bool:
 
 def _goes_on(sign: Sign) -> bool:
     """`go forward 1 m and frobnicate`: whether what follows may be another order."""
-    return sign.label in _OPENS or _kind(sign) == "conn"
+    return sign.label in _OPENS or kind_of(sign) == "conn"
 
 
-def _kind(sign: Sign) -> str:
+def kind_of(sign: Sign) -> str:
     return lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))[0][0]
-
-
-def strange_spans(text: str, names: Names, at: range) -> Iterator[Span]:
-    """The word that nobody knows which stands `at` a place: alone, then with the small words around it."""
-    clauses = clauses_of(text, names)
-    clause = next((one for one in clauses if at and one.start <= at.start < one.stop), None)
-    if is_bound(text, names):
-        return
-    signs = clause.signs if clause is not None else ()
-    held = [i for i, sign in enumerate(signs) if at.start <= sign.start < at.stop]
-    if clause is None or not held or not all(_is_light(signs[i]) for i in held):
-        return
-    first, after = held[0], held[-1] + 1
-    if any(sign.label == "contrast" for sign in signs) or _is_needed(signs, first, after):
-        return
-    begin, end = first, after
-    while begin and _is_light(signs[begin - 1]):
-        begin -= 1
-    while end < len(signs) and _is_light(signs[end]):
-        end += 1
-    moving = {sign.label for sign in signs if sign.moves}
-    does = begin or not moving & _COUNTED or moving & {"UNIT", "VERB", "SHAPE"}  # not `change step 2`
-    if not does or _is_counted(signs, first) or _is_number(signs, end):
-        return
-    points = bool(begin) and signs[begin - 1].label in _POINTING
-    points &= all(sign.text in relation_words("naming") for sign in signs[begin:first])
-    if all(_is_strange(signs[i], names) for i in held):
-        yield _span(text, clause, first, after, points=points)
-    is_whole = begin == 0 and end == len(signs)
-    if (end - begin > len(held) or is_whole) and not _is_counted(signs, begin):
-        yield _span(text, clause, begin, end, points=points or is_whole)
-
-
-def _span(text: str, clause: Clause, begin: int, end: int, *, points: bool = False) -> Span:
-    start, stop = _extent(text, clause, begin, end)
-    return Span(_without(text, start, stop), text[start:stop].strip(_MARKS), points=points)
-
-
-def _is_needed(signs: Sequence[Sign], at: int, after: int) -> bool:
-    """Whether the words from `at` on may be what is done, how much of it, or with what: `wait for zorblax`.
-
-    Or something is said of them: `the zorblax is 2 m long`.
-    """
-    said = signs[at].text if not signs[at].text.isascii() else ""
-    if any(word in said for word in relation_words("words") if not word.isascii()):
-        return True
-    if at and _kind(signs[at - 1]) == "conn" and not any(s.label in ("UNIT", "FLAG") for s in signs[at:]):
-        return True  # what else is to be done: `and blorp the frobnicator`
-    if after < len(signs) and signs[after].label in _TOLD:
-        return True
-    moving = {sign.label for sign in signs if sign.moves}
-    return ("VERB" in moving and moving <= _BARE) or _is_of_something_else(signs, at)
-
-
-def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
-    """Whether the word at `at` is what else is moved, or what it is said of: 把椅子往左挪, `that gate swings left`.
-
-    Or it says where the motion is done: `around the fern`.
-    """
-    if any(sign.text in relation_words("moved") for sign in signs[:at]):
-        return True
-    begin = at
-    while begin and _is_light(signs[begin - 1]):
-        begin -= 1
-    before = signs[begin - 1] if begin else None
-    if before and not before.moves and before.text in relation_words("words") - relation_words("towards"):
-        return True
-    if not any(sign.text in relation_words("articles") for sign in signs[begin:at]):
-        return False
-    if before and before.label == "VERB":  # what is drawn is no thing
-        return lexicon().words.get(tuple(before.text.split("_"))) != _MAKE
-    first = next((i for i, sign in enumerate(signs) if sign.label != "opening"), 0)
-    return not begin and signs[first].text in relation_words("articles")
-
-
-def _is_counted(signs: Sequence[Sign], at: int) -> bool:
-    """Whether a number stands before it, be it with an article: `half a knot`."""
-    while at and signs[at - 1].label == "NUMBER" and not signs[at - 1].moves:
-        at -= 1
-    return at > 0 and signs[at - 1].moves and signs[at - 1].label in _COUNTED
-
-
-def _is_number(signs: Sequence[Sign], at: int) -> bool:
-    """Whether a number without a unit stands there: `forklift 3`."""
-    if at >= len(signs) or signs[at].label != "NUMBER" or not signs[at].moves:
-        return False
-    return next((sign.label for sign in signs[at:] if sign.label not in _COUNTED), "") not in _EXTENTS
-
-
-def _is_light(sign: Sign) -> bool:
-    """Whether it may be left out, if it says nothing that anybody knows: neither of motion nor what bears on it."""
-    if sign.moves or sign.is_name or sign.label in _KEPT:
-        return False
-    return all(
-        (unit[:1].isalpha() or unit == "-") and unit not in relation_words("words") and not names_way(unit)
-        for unit in (sign.text.replace("_", "") if not sign.text.isascii() else "", *sign.text.split("_"))
-        if unit
-    )
 
 
 def names_way(unit: str) -> bool:
@@ -389,19 +301,3 @@ def _ways() -> tuple[str, ...]:
     known = (key[0] for key, meaning in lexicon().words.items() if len(key) == 1 and meaning[0][0] in _WAYS)
     latin = {word for word in known if word.isascii() and len(word) >= _LEAST_OF_WAY}
     return tuple(latin | relation_words("ways"))
-
-
-def _is_strange(sign: Sign, names: Names) -> bool:
-    words = lexicon().words
-    return not any((unit,) in words or (unit,) in names for unit in sign.text.split("_"))
-
-
-def is_bound(text: str, names: Names) -> bool:
-    """Whether a text has words that quote, deny or depend, so that no single word can be left out beside them."""
-    labels = {sign.label for clause in clauses_of(text, names) for sign in clause.signs}
-    return bool(labels & ((_BEARS | {"not", "condition"}) - {"question"}))
-
-
-def is_complete(text: str, names: Names) -> bool:
-    """Whether what is left says how much, or how often."""
-    return any(sign.label in _EXTENTS for clause in clauses_of(text, names) for sign in clause.signs)

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
 from chatrobot.language.beside import (
+    BEARS,
     MAYBE_ASIDE,
-    NO_ASIDE,
     SURE_ASIDE,
     SURELY_NOT_MEANT,
     Aside,
@@ -27,10 +27,11 @@ from chatrobot.language.beside import (
     refers,
 )
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.left_out import Span, is_bound, is_complete, place_of, strange_spans, told_spans
+from chatrobot.language.left_out import Span, place_of, told_spans
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, clauses_of
+from chatrobot.language.strange_words import is_bound, is_complete, strange_spans
 from chatrobot.language.typos import neighbours_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
@@ -156,20 +157,14 @@ class _Search:
         at = place_of(stumbled.part, text)
         if self.best < ORDER:
             told = told_spans(text, self.names, range(0))
-            yield from (
-                span
-                for span in told
-                if span.log_odds < SURE_TALK
-                and (not span.is_clause or (span.odds or 0.0) >= SURELY_NOT_MEANT)
-            )
+            yield from (span for span in told if span.log_odds < SURE_TALK and not span.tells)
             return
         yield from self._clause(text, stumbled)
-        is_refused = stumbled.refused or self.was_refused
-        least = SURE_ASIDE if is_refused else NO_ASIDE
-        for span in told_spans(text, self.names, at) if not self.asks else ():
-            if span.log_odds < NO_ORDER and (span.odds or 0.0) >= least:
-                yield span
-        if stumbled.code == "unknown_part" and not is_refused:
+        if stumbled.refused or self.was_refused:
+            return
+        if not self.asks:
+            yield from (span for span in told_spans(text, self.names, at) if span.log_odds < NO_ORDER)
+        if stumbled.code == "unknown_part":
             yield from strange_spans(text, self.names, at)
 
     def _clause(self, text: str, stumbled: Unclear) -> Iterator[Span]:
@@ -278,7 +273,9 @@ def _may_be_left_out(
     if not any(read.clause.is_covered_by(other.clause) for other in others):
         return False
     aside = odds.get(read.clause.start)
-    if begins_condition(read.clause) and (aside is None or aside.odds < SURE_CONDITION):
+    odds_of = aside.odds if aside is not None else BEARS
+    quotes = odds_of <= BEARS and any(sign.label == "report" for sign in read.clause.signs)
+    if quotes or (begins_condition(read.clause) and odds_of < SURE_CONDITION):
         return False
     told = any(sign.moves and sign.label in _TOLD for sign in read.clause.signs)
     if told and not any(other.clause.measures for other in others):
