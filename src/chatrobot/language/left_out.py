@@ -195,9 +195,9 @@ def _stands_ahead(signs: Sequence[Sign], after: Sequence[Sign]) -> bool:
     last = signs[-1].label
     if last in _BOUND or _leads(signs[0]) or _is_meant(signs):
         return False
-    if after[0].label in _POINTING:  # not `the turn | again`
+    if after[0].label in _POINTING:  # not `the turn | again`, `to the tea room | again`
         named = len(signs) > 1 and signs[-2].text in relation_words("articles")
-        return last not in _SUBJECTS and not named
+        return last not in _SUBJECTS and not named and all(sign.label != "to" for sign in signs)
     if last in _GOVERNS and not (len(signs) > 2 and after[0].label in _SAYS_NOTHING):
         return False
     if _begins_order(after[0]):

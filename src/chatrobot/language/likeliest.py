@@ -48,7 +48,7 @@ MOST_CLAUSES, MOST_PARTS, MOST_READS = 12, 4, 16
 SURE_TALK, SURE_CONDITION = -1.5, 1.0
 """In a text that orders nothing as a whole, what is left out has lower odds of an order."""
 _STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
-"""Why such a text was not read, where it may have talk in it."""
+"""Why a text was not read, where it may have talk in it that no mark sets off."""
 FAR_M = 10.0
 """A bare number above that is no number of metres."""
 _ALONE = frozenset({"NUMBER", "FLAG"})
@@ -86,7 +86,8 @@ def likeliest(
         best = max(best, ORDER)
     if len(reads) > MOST_CLAUSES:
         return None
-    search = _Search(names, language, read, read_anew, best, asks, problem.refused)
+    is_closed = problem.refused or problem.code not in _STUMBLED
+    search = _Search(names, language, read, read_anew, best, asks, is_closed)
     if best < ORDER:
         return search.proposal(plain, problem) if problem.code in _STUMBLED else None
     if problem.code == "no_unit":
@@ -116,7 +117,7 @@ class _Search:
     read_anew: Reader
     best: float
     asks: bool
-    was_refused: bool
+    is_closed: bool
     reads_left: int = MOST_READS
     seen: set[str] = field(default_factory=set)
 
@@ -160,7 +161,7 @@ class _Search:
             yield from (span for span in told if span.log_odds < SURE_TALK and not span.tells)
             return
         yield from self._clause(text, stumbled)
-        if stumbled.refused or self.was_refused:
+        if self.is_closed or stumbled.refused or stumbled.code not in _STUMBLED:
             return
         if not self.asks:
             yield from (span for span in told_spans(text, self.names, at) if span.log_odds < NO_ORDER)
