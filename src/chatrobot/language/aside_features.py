@@ -64,7 +64,9 @@ def _of_frame(clause: Clause, side: str, mark: str) -> Iterator[str]:
     yield f"K{side}{' '.join(words[-3:-1])}{mark}"
     yield from (f"W{side}{word}" for word in words[1:-1])
     known = dict.fromkeys(_known_words(clause))
-    yield from (f"P{a} {b}" for a, b in itertools.combinations(sorted(itertools.islice(known, _MOST_PAIRED)), 2))
+    yield from (
+        f"P{a} {b}" for a, b in itertools.combinations(sorted(itertools.islice(known, _MOST_PAIRED)), 2)
+    )
 
 
 def _known_words(clause: Clause) -> Iterator[str]:

@@ -145,19 +145,15 @@ def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
         return False
     labels = {sign.label for sign in clause.signs}
     # `not before noon`; `if it is dry`; `sorry, 5 s`; what is not said to its end: 左转，那个，就是
-    if (
-        clause.denies
-        or _first_label(clause) == "condition"
-        or "correction" in labels
-        or labels <= {"opening"}
-    ):
+    if clause.denies or begins_condition(clause) or "correction" in labels or labels <= {"opening"}:
         return False
     is_bound = clause.tells or _is_bound(clause) or len(clause.signs) == 1
     return aside.odds >= (SURE_BOUND if is_bound else SURE_ASIDE)
 
 
-def _first_label(clause: Clause) -> str:
-    return next((sign.label for sign in clause.signs if sign.label not in _POLITE), "")
+def begins_condition(clause: Clause) -> bool:
+    """`if it is dry`: whether the order beside it may depend on it."""
+    return next((sign.label for sign in clause.signs if sign.label not in _POLITE), "") == "condition"
 
 
 def says_motion_alone(clause: Clause) -> bool:
@@ -181,7 +177,7 @@ def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
 
 
 def _may_measure(signs: Sequence[Sign], i: int) -> bool:
-    """Whether a word may be part of an amount: no number of what nobody knows (三项专利), no unit without one (馆长)."""
+    """Whether a word may be part of an amount: no number of strange things (三项专利), no unit alone (馆长)."""
     if signs[i].label in _NUMBERS:
         counted = next((sign for sign in signs[i:] if sign.label not in _NUMBERS), None)
         return counted is None or counted.moves or counted.label not in (counted.text, *_COUNTED)

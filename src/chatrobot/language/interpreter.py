@@ -21,7 +21,6 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.answers import with_manner
-from chatrobot.language.bare_order import with_tails_parted
 from chatrobot.language.beside import (
     any_may_bear,
     are_asides,
@@ -39,6 +38,7 @@ from chatrobot.language.held import answered, answered_late, changed, is_taken_b
 from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
+from chatrobot.language.left_out import with_tails_parted
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.likeliest import likeliest, offer, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
@@ -53,7 +53,6 @@ from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
 from chatrobot.language.rephrase import in_full, is_item, rephrased, with_breaks
-from chatrobot.language.run_on import set_apart
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
@@ -63,7 +62,7 @@ from chatrobot.language.starting import (
     without_call_sign,
     without_hold,
 )
-from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
+from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
@@ -165,7 +164,8 @@ class OfflineInterpreter:
         if pointed is not None:
             return pointed
         found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
-        return found or set_apart(plain, names, reading.language, problem, read)
+        is_offer = found is not None and found.plan is None
+        return None if is_offer and calls_somebody(read_acts(plain, names), reading.language) else found
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""

@@ -8,30 +8,33 @@ Where the rules stumble on anything else, the clause it stands in is left out, o
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, talk_in
-from chatrobot.language.bare_order import bare_orders
 from chatrobot.language.beside import (
+    BEARS,
     MAYBE_ASIDE,
     SURE_ASIDE,
     SURELY_NOT_MEANT,
     Aside,
     any_may_bear,
     asides,
+    begins_condition,
     is_sure_aside,
     odds_beside_asides,
     refers,
 )
 from chatrobot.language.frames import GO, TURN
 from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.left_out import Span, place_of, told_spans
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.pared import mistyped, pared
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, Sign, clauses_of
+from chatrobot.language.strange_words import is_bound, is_complete, strange_spans
+from chatrobot.language.typos import neighbours_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
@@ -41,9 +44,13 @@ TALK, APART = 1.5, 3.0
 NO_MOTION = -4.0
 """A clause without any word of motion is sure talk below these odds, whatever its words are."""
 NO_ORDER = 3.5
-"""A clause without an amount may be left out below these odds."""
-MOST_CLAUSES, MOST_PARTS = 12, 3
-"""So many clauses are looked at one by one, and so many parts are left out of what is proposed."""
+"""A clause without an amount may be left out of a proposal below these odds."""
+MOST_CLAUSES, MOST_PARTS, MOST_READS = 12, 4, 16
+"""So many clauses are looked at one by one, so many parts are left out of what is proposed, and so many texts read."""
+SURE_TALK, SURE_CONDITION = -1.5, 1.0
+"""In a text that orders nothing as a whole, what is left out has lower odds of an order."""
+_STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
+"""Why a text was not read, where it may have talk in it that no mark sets off."""
 FAR_M = 10.0
 """A bare number above that is no number of metres."""
 _ALONE = frozenset({"NUMBER", "FLAG"})
@@ -55,38 +62,6 @@ _DEG = "deg"
 _DECIMAL = re.compile(r"\d*\.?\d+")
 
 Reader = Callable[[str], Interpretation]
-
-
-@dataclass
-class _Rest:
-    """What is read of a text: the clauses that are kept."""
-
-    plain: str
-    kept: list[Read]
-    left_out: list[str] = field(default_factory=list)
-
-    @property
-    def text(self) -> str:
-        parts = (self.said(read) + _mark_behind(self.said(read), read) for read in self.kept)
-        return " ".join(parts).strip(" ,;:")
-
-    def said(self, read: Read) -> str:
-        return self.plain[read.clause.start : read.clause.stop].strip()
-
-    def leave_out(self, read: Read) -> None:
-        self.kept.remove(read)
-        self.left_out.append(self.said(read).strip(" ,.;:!"))
-
-    def with_part(self, part: str) -> Read | None:
-        """The clause that was not understood: the last that holds `part`."""
-        squeezed = "".join(part.split()).rstrip("…")
-        held = [read for read in self.kept if squeezed and squeezed in "".join(self.said(read).split())]
-        return held[-1] if held else None
-
-
-def _mark_behind(said: str, read: Read) -> str:
-    """The mark behind a clause that was parted without one: `wait 10 s so they can unload you`."""
-    return "" if said.endswith(read.clause.end) else read.clause.end
 
 
 def likeliest(
@@ -111,11 +86,14 @@ def likeliest(
     best = max(best, odds_without(plain, reads, apart, names))
     if any(refers(read.clause) for read in reads):  # `undo that, I forgot to film it`
         best = max(best, ORDER)
-    if best < ORDER or len(reads) > MOST_CLAUSES:
+    if len(reads) > MOST_CLAUSES:
         return None
+    is_closed = problem.refused or problem.code not in _STUMBLED
+    search = _Search(names, language, read, read_anew, best, asks, is_closed)
+    if best < ORDER:
+        return search.proposal(plain, problem) if problem.code in _STUMBLED else None
     if problem.code == "no_unit":
         return _with_unit(plain, problem.part, language, read, unit)
-    rest = _Rest(plain, list(reads))
     odds = {} if asks else asides(reads)
     told = [
         read
@@ -123,21 +101,133 @@ def likeliest(
         if is_sure_aside(read.clause, odds) and not _may_order(read) and _is_no_part(read, reads, odds)
     ]
     talk = [*apart, *told, *([] if asks else talk_in(reads))]
-    for clause in [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]:
-        rest.leave_out(clause)
-    is_sure = bool(apart) or not problem.refused or _is_clearly_told(rest, problem, told, odds)
-    is_sure &= not any_may_bear(reads, [read for read in reads if read not in (*rest.kept, *apart)])
-    for _ in range(MOST_PARTS + 1):
-        try:
-            meant = read(rest.text)
-        except Unclear as stumbled:
-            if not _left_out_clause(rest, stumbled, best, odds):
-                found = _in_part(rest, stumbled, language, names, read, read_anew)
-                return found or (None if problem.refused else _bare(plain, names, language, read))
-            is_sure = False
-            continue
-        return meant if is_sure else proposed(meant, language, rest.left_out)
-    return None
+    gone = [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]
+    is_sure = bool(apart) or not problem.refused or _is_clearly_told(plain, problem, told, odds)
+    is_sure &= not any_may_bear(reads, [read for read in gone if read not in apart])
+    rest = _kept(plain, [read for read in reads if read not in gone])
+    parts = tuple(_said(plain, read).strip(" ,.;:!") for read in gone)
+    try:
+        meant = read(rest)
+    except Unclear as stumbled:
+        found = search.proposal(rest, stumbled, parts)
+        return found or (search.proposal(plain, problem) if gone and not problem.refused else None)
+    return meant if is_sure else proposed(meant, language, parts)
+
+
+@dataclass
+class _Search:
+    """Looks for the order in a text, where the rules stumble: what is left out then is tried part by part."""
+
+    names: Names
+    language: LanguageCode
+    read: Reader
+    read_anew: Reader
+    best: float
+    asks: bool
+    is_closed: bool
+    reads_left: int = MOST_READS
+    seen: set[str] = field(default_factory=set)
+
+    def proposal(self, text: str, problem: Unclear, gone: tuple[str, ...] = ()) -> Interpretation | None:
+        """The likeliest order in `text`, proposed, where `read` raised `problem`; None where none is found."""
+        found = self._found(text, problem, ())
+        mended = self._mistyped(text, problem)
+        words = found is None or any(span.odds is None for span in found[1])
+        if mended is not None and words:
+            other = found is not None and found[0].plan != mended.plan
+            return None if other else proposed(mended, self.language, (problem.part,))
+        if found is None:
+            return None
+        return proposed(found[0], self.language, (*(span.said for span in found[1]), *gone))
+
+    def _found(
+        self, text: str, stumbled: Unclear, left_out: tuple[Span, ...]
+    ) -> tuple[Interpretation, tuple[Span, ...]] | None:
+        for span in self._spans(text, stumbled):
+            if span.text in self.seen or self.reads_left <= 0 or len(left_out) >= MOST_PARTS:
+                continue
+            self.seen.add(span.text)
+            self.reads_left -= 1
+            parts = (*left_out, span)
+            try:
+                meant = self.read(span.text)
+            except Unclear as again:
+                found = self._found(span.text, again, parts)
+                if found is not None:
+                    return found
+                continue
+            if meant.plan is not None and self._is_whole(meant, span.text, parts):
+                return meant, parts
+        return None
+
+    def _spans(self, text: str, stumbled: Unclear) -> Iterator[Span]:
+        """What may be left out of a text that is not read, the likeliest first."""
+        at = place_of(stumbled.part, text)
+        if self.best < ORDER:
+            told = told_spans(text, self.names, range(0))
+            yield from (span for span in told if span.log_odds < SURE_TALK and not span.tells)
+            return
+        yield from self._clause(text, stumbled)
+        if self.is_closed or stumbled.refused or stumbled.code not in _STUMBLED:
+            return
+        if not self.asks:
+            yield from (span for span in told_spans(text, self.names, at) if span.log_odds < NO_ORDER)
+        if stumbled.code == "unknown_part":
+            yield from strange_spans(text, self.names, at)
+
+    def _clause(self, text: str, stumbled: Unclear) -> Iterator[Span]:
+        """The clause that the rules stumbled in, where it may be no part of what was meant."""
+        reads = read_acts(text, self.names)
+        part = "".join(stumbled.part.split()).rstrip("…")
+        held = [read for read in reads if part and part in "".join(_said(text, read).split())]
+        odds = {} if self.asks else asides(reads)
+        others = [read for read in reads if read not in held[-1:]]
+        if held and _may_be_left_out(held[-1], others, stumbled, self.best, odds):
+            aside = odds.get(held[-1].clause.start)
+            said = _said(text, held[-1]).strip(" ,.;:!")
+            yield Span(_kept(text, others), said, aside.odds if aside else 0.0)
+
+    def _is_whole(self, meant: Interpretation, text: str, left_out: Sequence[Span]) -> bool:
+        """Whether what is left orders something, and nothing that it needs is missing."""
+        reads = read_acts(text, self.names)
+        if order_log_odds(reads) < ORDER and not any(refers(read.clause) for read in reads):
+            return False
+        words = [span for span in left_out if span.odds is None]
+        if not words or all(span.points for span in words):
+            return True
+        # What was left out may be what is to be changed.
+        return is_complete(text, self.names) and _means_the_same(meant, text, self.read_anew)
+
+    def _mistyped(self, text: str, problem: Unclear) -> Interpretation | None:
+        """What `text` means with one typing error mended that makes another word of it; None where that is not sure."""
+        signs = [sign for clause in clauses_of(text, self.names) for sign in clause.signs]
+        unsure = (
+            problem.code != "unknown_part"
+            or problem.refused
+            or self.best < ORDER
+            or is_bound(text, self.names)
+        )
+        if unsure or [sign.label for sign in signs if sign.text == problem.part] != [problem.part]:
+            return None
+        found: list[Interpretation] = []
+        for known in neighbours_of(problem.part):
+            try:
+                meant = self.read(re.sub(rf"\b{re.escape(problem.part)}\b", known, text, count=1))
+            except Unclear:
+                continue
+            if meant.plan is not None and meant.plan not in [other.plan for other in found]:
+                found.append(meant)
+        return found[0] if len(found) == 1 else None
+
+
+def _said(plain: str, read: Read) -> str:
+    return plain[read.clause.start : read.clause.stop].strip()
+
+
+def _kept(plain: str, reads: Sequence[Read]) -> str:
+    """The clauses that are kept, each with its mark, be it parted without one: `wait 10 s so they can unload you`."""
+    said = ((_said(plain, read), read.clause.end) for read in reads)
+    return " ".join(text if text.endswith(end) else text + end for text, end in said).strip(" ,;:")
 
 
 def proposed(
@@ -155,37 +245,6 @@ def proposed(
 def offer(plan: Plan, language: LanguageCode, *, code: str = "held") -> Proposal:
     """A plan, and the question whether it is to be driven."""
     return Proposal(format_plan(plan), say(language, code, text=describe_plan(plan, language)))
-
-
-def _in_part(
-    rest: _Rest, stumbled: Unclear, language: LanguageCode, names: Names, read: Reader, read_anew: Reader
-) -> Interpretation | None:
-    """What is ordered without the words that nobody knows, or with a typing error mended, proposed."""
-    if stumbled.refused or stumbled.code != "unknown_part":
-        return None
-    found = pared(rest.text, names, stumbled, read)
-    mended = mistyped(rest.text, names, stumbled, read)
-    if mended is not None:
-        other = found is not None and found.meant.plan != mended.plan
-        return None if other else proposed(mended, language, (stumbled.part,))
-    # What was left out may be what is to be changed.
-    if found is not None and (found.points or _means_the_same(found.meant, found.text, read_anew)):
-        return proposed(found.meant, language, (*found.left_out, *rest.left_out))
-    return None
-
-
-def _bare(plain: str, names: Names, language: LanguageCode, read: Reader) -> Interpretation | None:
-    """What is ordered without what stands before, behind or beside it, proposed."""
-    for bare in bare_orders(plain, names):
-        if order_log_odds(read_acts(bare.text, names)) < ORDER:
-            continue
-        try:
-            found = read(bare.text)
-        except Unclear:
-            continue
-        if found.plan is not None:
-            return proposed(found, language, bare.left_out)
-    return None
 
 
 def _with_unit(
@@ -214,36 +273,33 @@ def _is_sure_talk(read: Read, best: float) -> bool:
     return clause.talks and not clause.binds and read.log_odds < min(TALK, best - APART)
 
 
-def _left_out_clause(rest: _Rest, stumbled: Unclear, best: float, odds: Mapping[int, Aside]) -> bool:
-    """Leave out the clause that the rules stumbled in; False where it may be part of what was meant."""
-    clause = rest.with_part(stumbled.part)
-    if clause is None or not _may_be_left_out(rest, clause, stumbled, best, odds):
-        return False
-    rest.leave_out(clause)
-    return True
-
-
 def _may_be_left_out(
-    rest: _Rest, read: Read, stumbled: Unclear, best: float, odds: Mapping[int, Aside]
+    read: Read, others: Sequence[Read], stumbled: Unclear, best: float, odds: Mapping[int, Aside]
 ) -> bool:
     """Whether the clause is no part of what is ordered, or most likely an aside to it."""
     # `Nudge to the left by my hand's width, say ten centimetres`: what says which way is part of the order.
-    if not any(read.clause.is_covered_by(other.clause) for other in rest.kept if other is not read):
+    if not any(read.clause.is_covered_by(other.clause) for other in others):
         return False
     aside = odds.get(read.clause.start)
+    odds_of = aside.odds if aside is not None else BEARS
+    quotes = odds_of <= BEARS and any(sign.label == "report" for sign in read.clause.signs)
+    if quotes or (begins_condition(read.clause) and odds_of < SURE_CONDITION):
+        return False
     told = any(sign.moves and sign.label in _TOLD for sign in read.clause.signs)
+    if told and not any(other.clause.measures for other in others):
+        return False
     if told and (aside is None or aside.odds < SURE_ASIDE or read.log_odds >= NO_ORDER):
         return False  # no amount of what is ordered is missing in a proposal
     least = SURE_ASIDE if stumbled.refused else MAYBE_ASIDE
     if aside is not None and aside.odds >= least and not read.clause.denies:
         return True
-    return (read.clause.talks or not stumbled.refused) and _leaves_order(rest, read, best)
+    return (read.clause.talks or not stumbled.refused) and _leaves_order(read, others, best)
 
 
-def _is_clearly_told(rest: _Rest, problem: Unclear, told: Sequence[Read], odds: Mapping[int, Aside]) -> bool:
+def _is_clearly_told(plain: str, problem: Unclear, told: Sequence[Read], odds: Mapping[int, Aside]) -> bool:
     """Whether what is refused stands in a clause that is clearly an aside: not `grab the mug, forward 1 m`."""
     squeezed = "".join(problem.part.split())
-    refused = [read for read in told if squeezed in "".join(rest.said(read).split())]
+    refused = [read for read in told if squeezed in "".join(_said(plain, read).split())]
     return bool(told) and all(odds[read.clause.start].odds >= SURELY_NOT_MEANT for read in refused)
 
 
@@ -268,12 +324,12 @@ def _is_no_part(read: Read, reads: Sequence[Read], odds: Mapping[int, Aside]) ->
     return any(sign.moves and sign.label in _DOES for other in others for sign in other.signs)
 
 
-def _leaves_order(rest: _Rest, read: Read, best: float) -> bool:
+def _leaves_order(read: Read, others: Sequence[Read], best: float) -> bool:
     """Whether `read` may be no part of what is ordered, and what is left orders something."""
     clause = read.clause
-    others = [other for other in rest.kept if other is not read and other.clause.moves]
+    moving = [other for other in others if other.clause.moves]
     passable = not (clause.measures or clause.depends) and read.log_odds < min(NO_ORDER, best + 1.0)
-    return passable and bool(others) and order_log_odds(others) >= ORDER
+    return passable and bool(moving) and order_log_odds(moving) >= ORDER
 
 
 def _means_the_same(found: Interpretation, text: str, read_anew: Reader) -> bool:

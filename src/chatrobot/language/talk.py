@@ -79,7 +79,7 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     if _tells_of_the_person(reads):
         return True
     return (
-        _is_bare_beside_talk(reads) or _calls_somebody(reads, language) or _calls_a_name(reads, text, context)
+        _is_bare_beside_talk(reads) or calls_somebody(reads, language) or _calls_a_name(reads, text, context)
     )
 
 
@@ -114,7 +114,7 @@ def _refers(sign: Sign) -> bool:
     return sign.moves and not sign.label.isupper() and sign.label != "past"
 
 
-def _calls_somebody(reads: Sequence[Read], language: str) -> bool:
+def calls_somebody(reads: Sequence[Read], language: str) -> bool:
     """`Please Ben, not so fast, go back a step`: whether somebody else is called, and the robot is not.
 
     `Grandpa, you go back` calls nobody else: who is called is who is meant.
