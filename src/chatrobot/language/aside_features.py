@@ -1,12 +1,11 @@
 """The features of a clause beside an order, by which `beside.py` tells an aside from what bears on the order.
 
 Runs of labels, of words, and of both: in the last, words that many people use stand for themselves, and all others
-for how they end. `so the ? can get by` is the same for a cart and a calf. Besides, which of these stand in it together.
+for how they end. `so the ? can get by` is the same for a cart and a calf.
 """
 
 from __future__ import annotations
 
-import itertools
 import zlib
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
@@ -19,7 +18,6 @@ COMMON_WORDS = DATA / "beside_words.txt"
 """Words that many of the writers use whose sentences the weights are fitted to, one a line."""
 _ENDINGS = ("qx", "ing", "ed", "ly", "er", "est", "s")
 _LEAST_OF_WORD = 2
-_MOST_PAIRED = 16
 
 
 def slot_of(name: str) -> int:
@@ -45,6 +43,9 @@ def features(clauses: Sequence[Clause], i: int, order: int) -> Iterator[str]:
     for at in range(1, len(labels)):
         yield f"1{labels[at]}"
         yield f"2{labels[at - 1]} {labels[at]}"
+        yield f"b{texts[at - 1]} {texts[at]}"
+        if at > 1:
+            yield f"3{labels[at - 2]} {labels[at - 1]} {labels[at]}"
         if at < len(labels) - 1:
             yield f"w{texts[at]}"
             if labels[at] == "?" and texts[at].isascii():
@@ -54,28 +55,19 @@ def features(clauses: Sequence[Clause], i: int, order: int) -> Iterator[str]:
 
 
 def _of_frame(clause: Clause, side: str, mark: str) -> Iterator[str]:
-    """Runs of its common words and of what the others are like, which stand together, and how it begins and ends."""
+    """Runs of its common words and of what the others are like, with gaps, and how it begins and ends."""
     words = ["^", *map(_frame_word, clause.signs), "$"]
     for at in range(len(words) - 1):
         yield f"F2{words[at]} {words[at + 1]}"
         yield f"F3{' '.join(words[at : at + 3])}"
+        if at + 2 < len(words):
+            yield f"H{words[at]} _ {words[at + 2]}"
+        if at + 3 < len(words):
+            yield f"G{words[at]} _ _ {words[at + 3]}"
     yield f"I{side}{' '.join(words[1:3])}"
     yield f"J{side}{' '.join(words[1:4])}"
     yield f"K{side}{' '.join(words[-3:-1])}{mark}"
     yield from (f"W{side}{word}" for word in words[1:-1])
-    known = dict.fromkeys(_known_words(clause))
-    yield from (
-        f"P{a} {b}" for a, b in itertools.combinations(sorted(itertools.islice(known, _MOST_PAIRED)), 2)
-    )
-
-
-def _known_words(clause: Clause) -> Iterator[str]:
-    """Its common words, and the labels of its words."""
-    for sign in clause.signs:
-        if sign.text in common_words():
-            yield sign.text
-        if sign.label != sign.text:
-            yield f"[{sign.label}]"
 
 
 def _frame_word(sign: Sign) -> str:

@@ -19,7 +19,7 @@ from chatrobot.language.quoting import quotes_ahead, quotes_behind, sentences_of
 from chatrobot.language.set_off import has_amount
 from chatrobot.language.signs import Clause, Names, Sign
 
-SCALE = 128.0
+SCALE = 24.0
 """A weight of one is this much in a byte."""
 
 SURE_ASIDE, MAYBE_ASIDE = 0.5, 0.0
