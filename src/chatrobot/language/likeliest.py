@@ -21,6 +21,7 @@ from chatrobot.language.beside import (
     Aside,
     any_may_bear,
     asides,
+    is_reported,
     is_sure_aside,
     odds_beside_asides,
     refers,
@@ -107,7 +108,8 @@ def likeliest(
     asks = problem.code == "question_beside"
     apart = [] if asks else set_off(plain, reads, language, names)
     best = max(best, odds_without(plain, reads, apart, names))
-    if any(refers(read.clause) for read in reads):  # `undo that, I forgot to film it`
+    pointing = [read for read in reads if refers(read.clause)]  # `undo that, I forgot to film it`
+    if pointing and not is_reported(reads, pointing):
         best = max(best, ORDER)
     if best < ORDER or len(reads) > MOST_CLAUSES:
         return None
