@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, without
+from chatrobot.language.acts import MAYBE_ORDER, ORDER, Read, order_log_odds, read_acts, without
 from chatrobot.language.aside_features import features, slot_of
 from chatrobot.language.data_files import DATA
 from chatrobot.language.lexicon import Meaning, lexicon
@@ -207,8 +207,15 @@ def _is_reference(meaning: Meaning) -> bool:
 def refers_alone(reads: Sequence[Read]) -> bool:
     """Whether all that is ordered asks for the motion before: `undo that, I forgot to film it`."""
     found = asides(reads)
-    kept = [read.clause for read in reads if not is_sure_aside(read.clause, found)]
-    return len(kept) == 1 and refers(kept[0])
+    kept = [read for read in reads if not is_sure_aside(read.clause, found)]
+    return len(kept) == 1 and refers(kept[0].clause) and not is_reported(reads, kept)
+
+
+def is_reported(reads: Sequence[Read], kept: Sequence[Read]) -> bool:
+    """他说，再来一次: whether what is kept hardly orders anything, and a clause beside it tells what somebody says."""
+    beside = [{sign.label for sign in read.clause.signs} for read in reads if read not in kept]
+    told = any("report" in labels and "not" not in labels for labels in beside)
+    return told and order_log_odds(kept) < MAYBE_ORDER
 
 
 def are_asides(reads: Sequence[Read], left_out: Sequence[Read]) -> bool:

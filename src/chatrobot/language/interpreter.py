@@ -39,7 +39,6 @@ from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import with_tails_parted
-from chatrobot.language.lexicon import lexicon
 from chatrobot.language.likeliest import likeliest, offer, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in, naming_points, with_points
@@ -52,18 +51,18 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
-from chatrobot.language.rephrase import in_full, is_item, rephrased, with_breaks
+from chatrobot.language.rephrase import in_full, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.starting import (
+    has_a_stop_line,
     mended_alone,
     with_told_apart,
     without_call_sign,
     without_hold,
 )
 from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
-from chatrobot.language.tokens import tokenise
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
@@ -308,7 +307,7 @@ class OfflineInterpreter:
             return planned([*twists], language)
         if reflex.is_stop(text) or reflex.is_stop(plain):
             return stopped(language)
-        if _has_a_stop_line(text):
+        if has_a_stop_line(text):
             return Interpretation("stop", say(language, "stop_among_lines"), language)
         courtesy = questions.courtesy_of(plain, language)
         if courtesy:
@@ -318,22 +317,6 @@ class OfflineInterpreter:
 
 def _moves(plan: Plan | None) -> list[Step]:
     return [step for step in (plan.steps if plan is not None else ()) if not isinstance(step, Wait)]
-
-
-def _has_a_stop_line(text: str) -> bool:
-    """Whether one of several lines is a stop: lines are said one by one, and a stop counts as soon as it is there.
-
-    A point of a list is none, nor is `then stop`: those come after what stands before them.
-    """
-    lines = [line for line in normalise(text).split("\n") if line.strip()]
-    stops = [line for line in lines if reflex.is_stop(line) and not is_item(line)] if len(lines) > 1 else []
-    return any(not _goes_on(line) for line in stops)
-
-
-def _goes_on(line: str) -> bool:
-    """`then stop`, 然后停."""
-    beginnings = (tokenise(said, lexicon(), {}) for said in (line, line.split()[0]))
-    return any(atoms[0].kind == "conn" or atoms[0].value == "finally" for atoms in beginnings if atoms)
 
 
 def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretation | None:

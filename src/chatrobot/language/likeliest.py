@@ -22,6 +22,7 @@ from chatrobot.language.beside import (
     any_may_bear,
     asides,
     begins_condition,
+    is_reported,
     is_sure_aside,
     odds_beside_asides,
     refers,
@@ -84,7 +85,8 @@ def likeliest(
     asks = problem.code == "question_beside"
     apart = [] if asks else set_off(plain, reads, language, names)
     best = max(best, odds_without(plain, reads, apart, names))
-    if any(refers(read.clause) for read in reads):  # `undo that, I forgot to film it`
+    pointing = [read for read in reads if refers(read.clause)]  # `undo that, I forgot to film it`
+    if pointing and not is_reported(reads, pointing):
         best = max(best, ORDER)
     if len(reads) > MOST_CLAUSES:
         return None

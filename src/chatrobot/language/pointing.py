@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from chatrobot.language.acts import ORDER, Read, order_log_odds, without
-from chatrobot.language.beside import SURE_ASIDE, Aside, asides, refers
+from chatrobot.language.beside import SURE_ASIDE, Aside, asides, is_reported, refers
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Go
@@ -35,7 +35,7 @@ def beside_reference(
     found = asides(reads)
     talk = [one for one in reads if _is_talk(one, found.get(one.clause.start))]
     kept = [one for one in reads if one not in talk]
-    if not talk or not kept:
+    if not talk or not kept or is_reported(reads, kept):
         return None
     if order_log_odds(kept) < ORDER and not any(refers(one.clause) for one in kept):
         return None

@@ -5,12 +5,16 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
+from chatrobot import reflex
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.normalise import normalise
+from chatrobot.language.rephrase import is_item
 from chatrobot.language.rules import NEVER, form
 from chatrobot.language.signs import Clause, Sign, clauses_of
+from chatrobot.language.tokens import tokenise
 from chatrobot.language.typos import correct
 from chatrobot.language.unclear import Unclear
 
@@ -87,3 +91,19 @@ def _is_bare(frame: Frame) -> bool:
     """Neither a direction nor an amount: `go`, `drive slowly`."""
     told = frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words or frame.flags
     return not told and frame.verb in ("", "make", *GO)
+
+
+def has_a_stop_line(text: str) -> bool:
+    """Whether one of several lines is a stop: lines are said one by one, and a stop counts as soon as it is there.
+
+    A point of a list is none, nor is `then stop`: those come after what stands before them.
+    """
+    lines = [line for line in normalise(text).split("\n") if line.strip()]
+    stops = [line for line in lines if reflex.is_stop(line) and not is_item(line)] if len(lines) > 1 else []
+    return any(not _goes_on(line) for line in stops)
+
+
+def _goes_on(line: str) -> bool:
+    """`then stop`, 然后停."""
+    beginnings = (tokenise(said, lexicon(), {}) for said in (line, line.split()[0]))
+    return any(atoms[0].kind == "conn" or atoms[0].value == "finally" for atoms in beginnings if atoms)
