@@ -91,7 +91,8 @@ def _are_back(steps: Sequence[Step]) -> bool:
     """`40 cm right, 40 cm left, and you are back where you began`: whether drives lead to where they began."""
     drives = [step for step in steps if isinstance(step, Drive)]
     ahead_m, left_m = (
-        sum((step.distance_m or 0.0) * of(step.direction_rad) for step in drives) for of in (math.cos, math.sin)
+        sum((step.distance_m or 0.0) * of(step.direction_rad) for step in drives)
+        for of in (math.cos, math.sin)
     )
     return math.hypot(ahead_m, left_m) < _AT_START_M
 
