@@ -177,7 +177,7 @@ def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
 
 
 def _may_measure(signs: Sequence[Sign], i: int) -> bool:
-    """Whether a word may be part of an amount: no number of strange things (三项专利), no unit alone (馆长)."""
+    """Whether a word may be of an amount: no number of what nobody knows (三项专利), no unit alone (馆长)."""
     if signs[i].label in _NUMBERS:
         counted = next((sign for sign in signs[i:] if sign.label not in _NUMBERS), None)
         return counted is None or counted.moves or counted.label not in (counted.text, *_COUNTED)

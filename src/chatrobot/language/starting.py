@@ -70,7 +70,10 @@ def _called(clause: Clause, language: str) -> Sequence[Sign]:
     if not after or not run or len(run) > _LONGEST_NAME:
         return ()
     pronoun = len(run) > 1 and after[0].text[0] in load_table(language, "talk")["pronouns"]
-    name = form(language, "starting", "name").fullmatch("".join(sign.text for sign in run))
+    called = "".join(sign.text for sign in run)
+    if form(language, "starting", "kin").fullmatch(called):
+        return ()
+    name = form(language, "starting", "name").fullmatch(called)
     return run if pronoun or (name and after[0].moves) else ()
 
 
