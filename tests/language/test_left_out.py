@@ -13,13 +13,10 @@ OFFERED = {
     "that made me dizzy now the other way": "drive 1 m back",
     "oh what fun now half of that": "drive 0.5 m",
     "do it again for grandpa he missed it": "drive 1 m",
-    "drive fwd for 4 sec gotta check the encoders": "drive 4 s",
     "dude my mic was muted go fwd 80cm": "drive 0.8 m",
     "1.5 m fwd at 0.15 m/s dont wanna wake anyone": "drive 1.5 m at 0.15 m/s",
-    "quarter circle left one metre radius thats the corner of the apron": "arc left 90 deg radius 1 m",
     "now half of that backwards the tractor needs by": "drive 0.5 m back",
     "still no lemons: pull back two metres for the wide shot": "drive 2 m back",
-    "往前走一米等十秒我放两箱水然后再走两米": "drive 1 m\nwait 10 s\ndrive 2 m",
     "还挡着门呢再退二十公分": "drive 0.2 m back",
     "drei Sekunden vorwärts wir prüfen den Estrich": "drive 3 s",
 }

@@ -102,7 +102,7 @@ def test_what_only_names_the_motion_before_is_left_out_of_a_proposal() -> None:
     ("text", "quoted"),
     [
         ("往右转六十度，用阿巴阿巴", "用阿巴阿巴"),
-        ("Einen halben Meter nach rechts, flubber das Mecanum-Rad", "flubber das Mecanum"),
+        ("Einen halben Meter nach rechts, flubber das Mecanum", "flubber das Mecanum"),
     ],
 )
 def test_a_question_quotes_what_was_said(text: str, quoted: str) -> None:

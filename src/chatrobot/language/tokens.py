@@ -118,13 +118,9 @@ def _cover(
 
 
 def _places_of(units: Key, names: dict[Key, Meaning]) -> list[tuple[int, int]]:
-    """Where each name of several words begins and ends."""
+    """Where each name begins and ends."""
     return [
-        (at, at + len(key))
-        for key in names
-        if len(key) > 1
-        for at in range(len(units))
-        if units[at : at + len(key)] == key
+        (at, at + len(key)) for key in names for at in range(len(units)) if units[at : at + len(key)] == key
     ]
 
 
