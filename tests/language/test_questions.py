@@ -104,4 +104,7 @@ def test_what_was_understood_is_the_plan() -> None:
 def test_a_question_that_nobody_can_answer_gets_no_answer_to_another() -> None:
     meant = OfflineInterpreter(MECANUM).interpret("why is the sky blue?", Context())
     assert meant.outcome == "unclear"
+
+
+def test_how_long_it_took_is_the_time_that_was_measured() -> None:
     assert "3.5 s" in told("how long was that?", DROVE)

@@ -211,24 +211,9 @@ class OfflineInterpreter:
             Unclear: where nothing is ordered, or what is ordered is not understood.
         """
         plain = normalise(text)
-        told = (
-            answer_about_places(plain, language, context)
-            or read_naming(plain, language, context)
-            or read_putting(plain, language, context)
-            or read_named_here(
-                plain,
-                Reading(language, context, self._profile),
-                lambda part: self._steps(part, language, context),
-            )
-            or told_what_it_would_do(plain, language, lambda said: self._meant(said, language, context))
-        )
+        told = self._told(plain, language, context)
         if told is not None:
             return told
-        part = part_of_shape(
-            plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
-        )
-        if part is not None:
-            return planned(part, language)
         names = names_in(context)
         reads = read_acts(plain, names)
         apart = set_off(plain, reads, language, names)
@@ -255,6 +240,26 @@ class OfflineInterpreter:
         if meant.outcome != "plan" or read_twists(plain):
             return meant
         return self._surely_ordered(meant, plain, reads, language, context)
+
+    def _told(self, plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
+        """What readers of their own answer, remember, put somewhere or go on with; None where none of them does."""
+        told = (
+            answer_about_places(plain, language, context)
+            or read_naming(plain, language, context)
+            or read_putting(plain, language, context)
+            or read_named_here(
+                plain,
+                Reading(language, context, self._profile),
+                lambda part: self._steps(part, language, context),
+            )
+            or told_what_it_would_do(plain, language, lambda said: self._meant(said, language, context))
+        )
+        if told is not None:
+            return told
+        part = part_of_shape(
+            plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
+        )
+        return planned(part, language) if part is not None else None
 
     def _steps(self, text: str, language: LanguageCode, context: Context) -> list[Step]:
         meant = self._ordered(text, language, context)

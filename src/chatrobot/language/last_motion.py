@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from chatrobot.core.geometry import ORIGIN
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.ellipsis import State
 from chatrobot.language.facts import chosen_unit_m
 from chatrobot.language.frames import DIRECTIONS, EXTENTS, SIDES, Frame
+from chatrobot.language.leading import pose_after
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
@@ -220,11 +221,10 @@ def laps(steps: Sequence[Step], count: int) -> list[Step] | None:
     only = steps[0]
     if len(steps) == 1 and isinstance(only, (Arc, Turn)):
         return [replace(only, angle_rad=2 * math.pi * count)]
-    end, heading_rad = 0j, 0.0
-    for step in steps:
-        if isinstance(step, Drive):
-            end += cmath.rect(step.distance_m or 0.0, heading_rad + step.direction_rad)
-        elif isinstance(step, Turn):
-            heading_rad += (step.angle_rad or 0.0) * (1 if step.left else -1)
-    is_closed = abs(end) < _NEAR and not any(isinstance(step, Arc) for step in steps)
+    end = pose_after(steps, ORIGIN)
+    is_closed = (
+        end is not None
+        and end.distance_to(ORIGIN) < _NEAR
+        and not any(isinstance(step, Arc) for step in steps)
+    )
     return [*steps[: len(steps) // round(rounds)]] * count if is_closed else None

@@ -21,7 +21,6 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.last_motion import speeds_said, state_after
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.looking import facing
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import instead
 from chatrobot.language.multiples import in_shares, with_multiples
@@ -32,7 +31,7 @@ from chatrobot.language.quantities import read_quantities
 from chatrobot.language.restated import without_restated, without_told_before
 from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
-from chatrobot.language.standing import by_places, stood
+from chatrobot.language.standing import by_places, facing, stood
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear

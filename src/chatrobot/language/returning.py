@@ -6,11 +6,13 @@ import math
 from collections.abc import Sequence
 from functools import cache
 
+from chatrobot.core.geometry import ORIGIN
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import DIRECTIONS, SIDES, Frame
 from chatrobot.language.inverse import inverse
+from chatrobot.language.leading import pose_after
 from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom
@@ -89,12 +91,8 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
 
 def _are_back(steps: Sequence[Step]) -> bool:
     """`40 cm right, 40 cm left, and you are back where you began`: whether drives lead to where they began."""
-    drives = [step for step in steps if isinstance(step, Drive)]
-    ahead_m, left_m = (
-        sum((step.distance_m or 0.0) * of(step.direction_rad) for step in drives)
-        for of in (math.cos, math.sin)
-    )
-    return math.hypot(ahead_m, left_m) < _AT_START_M
+    end = pose_after(steps, ORIGIN)
+    return end is not None and end.distance_to(ORIGIN) < _AT_START_M
 
 
 def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:

@@ -13,15 +13,19 @@ from functools import cache
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES
+from chatrobot.language.leading import pose_after
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.rules import Form, form
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.base import rounded_angle
 from chatrobot.plan.ring import RING_MARGIN_M, middle_of, point_beside
-from chatrobot.plan.steps import Go
+from chatrobot.plan.steps import Face, Go, Step
 
 _MARK = "\t"
 """Parts the relation, its amount and the names in the value of an atom: no name has it."""
+_LEAST_M = 0.1
+"""Of a place that is nearer nobody can tell on which side it is."""
 _WIDEST = 7
 """So many atoms say where a point lies to a place."""
 _BEFORE = ("near", "front", "behind", "halfway", "towards")
@@ -208,3 +212,19 @@ def _on_the_way(here: Pose, goal: Pose, off_m: float, name: str, context: Contex
 
 def _to(x_m: float, y_m: float) -> Go:
     return Go(round(x_m, 2), round(y_m, 2))
+
+
+def facing(place: Go, before: Sequence[Step], context: Context) -> Face:
+    """The heading (odom frame) to what the map has at `place`, else to the place, after the steps `before`.
+
+    Raises:
+        Unclear: where nobody knows where the robot stands by then, or it stands at the place.
+    """
+    here = pose_after(before, context.state.pose)
+    if here is None:
+        raise Unclear("unclear_motion", place.place)
+    ring = list(context.rings(Pose(place.x_m, place.y_m))) if context.rings is not None else []
+    x_m, y_m = middle_of(ring) if ring else (place.x_m, place.y_m)
+    if math.dist((here.x_m, here.y_m), (x_m, y_m)) < _LEAST_M:
+        raise Unclear("unclear_motion", place.place)
+    return Face(rounded_angle(math.atan2(y_m - here.y_m, x_m - here.x_m), 2), "odom")
