@@ -31,7 +31,7 @@ run:
 lint: setup
 	$(BIN)/ruff check src tests examples scripts bench ros
 	$(BIN)/ruff format --check src tests examples scripts bench ros
-	$(BIN)/mypy
+	MYPY_NUM_WORKERS=2 $(BIN)/mypy
 
 # Where no process may keep its bytecode, each compiles all of ours anew.
 unexport PYTHONDONTWRITEBYTECODE

@@ -14,6 +14,7 @@ from tests.motion.test_stream import wait_s
 from chatrobot.core.events import Event, Finished, Interpreted, Notice, Paused, Progress
 from chatrobot.core.events import event_from_json as read
 from chatrobot.dialogue.options import Options
+from chatrobot.motion import goal_queue
 
 WAITS = "turn left 90 degrees"
 
@@ -67,15 +68,19 @@ def test_what_waited_behind_a_pause_says_why_it_is_not_done(word: str, code: str
     assert dropped.reason.code == code
 
 
-def test_a_pause_lapses_after_ten_minutes_and_says_so_for_what_waited_behind_it_too() -> None:
+def test_a_pause_lapses_after_ten_minutes_and_says_so_for_what_waited_behind_it_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert goal_queue.KEPT_S == 600.0
+    monkeypatch.setattr(goal_queue, "KEPT_S", 60.0)  # thirty thousand ticks would show no more
     talk = paused_before()
-    run_s(talk, 590.0)
+    run_s(talk, 55.0)
     assert talk.session.is_paused
-    run_s(talk, 15.0)
+    run_s(talk, 10.0)
     assert talk.results()[1].outcome == "stopped"
     assert talk.results()[1].reason is not None
     assert talk.results()[1].reason.code == "pause_too_long"
-    assert "paused for more than 600 s" in talk.results()[2].reply
+    assert "paused for more than 60 s" in talk.results()[2].reply
 
 
 def test_what_a_new_instruction_dropped_never_comes_back_with_a_later_pause() -> None:

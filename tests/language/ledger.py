@@ -1,16 +1,15 @@
-"""What the interpreter makes of every text there is: a line a text, kept in `ledger.txt`, compared by test_ledger.py.
+"""What the interpreter makes of each text of the corpora: a line a text, kept in `ledger.txt`.
 
     python -m tests.language.ledger            what has changed since the file was written
     python -m tests.language.ledger --write    write it anew
 
-Texts are the corpora, the German sources, the sayings, and the strings of the tests of this folder. Each is said to an
-ideal robot. Items of `everyday/` and of sources with an even number, and sources named `hold_*`, are held out: of these
-only digests are kept and counts shown.
+test_ledger.py compares. Texts are the corpora and the German sources; sayings, and what the tests of this folder say,
+are judged there. Each is said to an ideal robot. Items of `everyday/` and of sources with an even number, and sources
+named `hold_*`, are held out: of these only digests are kept and counts shown.
 """
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import sys
 from collections.abc import Iterator
@@ -65,7 +64,7 @@ class Line:
 def texts() -> list[Text]:
     """All of them, each once."""
     found: dict[str, Text] = {}
-    for text in (*_of_corpora(), *_of_sayings(), *_of_tests()):
+    for text in _of_corpora():
         found.setdefault(text.key, text)
     return list(found.values())
 
@@ -84,24 +83,6 @@ def of_corpus(file: Path) -> list[Text]:
     """The texts of one file, each with what must happen."""
     is_held_out = file.stem.startswith("hold_")
     return [Text(tuple(turn.say for turn in item.turns), item, is_held_out) for item in load_corpus(file)]
-
-
-def _of_sayings() -> Iterator[Text]:
-    files = sorted(HERE.glob("sayings_*.txt"))
-    for line in (line for file in files for line in file.read_text(encoding="utf-8").splitlines()):
-        if line and not line.startswith("#"):
-            yield Text(tuple(line.split(" | ")[1].strip().split(" || ")))
-
-
-def _of_tests() -> Iterator[Text]:
-    for file in sorted(HERE.glob("test_*.py")):
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Constant) and isinstance(node.value, str) and _is_said(node.value):
-                yield Text((node.value,))
-
-
-def _is_said(text: str) -> bool:
-    return 2 <= len(text) <= 200 and (" " in text or not text.isascii())
 
 
 def line_of(text: Text) -> Line:

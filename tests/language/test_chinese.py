@@ -141,7 +141,7 @@ CONDITIONS = [
 ]  # fmt: skip
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.sampled_from(COMMANDS), st.sampled_from(STRAY), st.data())
 def test_a_stray_word_never_makes_another_motion(command: str, stray: str, data: st.DataObject) -> None:
     at = data.draw(st.integers(0, len(command)))

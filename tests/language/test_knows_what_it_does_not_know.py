@@ -55,7 +55,7 @@ def test_a_hundred_kilobytes_are_answered_at_once() -> None:
     assert time.perf_counter() - began < 0.05
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.text(max_size=200))
 def test_no_text_raises(text: str) -> None:
     assert OfflineInterpreter(MECANUM).interpret(text, Context()).reply
@@ -98,7 +98,7 @@ WORDS = [
 ]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.lists(st.sampled_from(WORDS), max_size=14))
 def test_no_salad_of_known_words_raises(words: list[str]) -> None:
     assert OfflineInterpreter(MECANUM).interpret(" ".join(words), Context()).reply

@@ -40,7 +40,7 @@ def plan_of(text: str) -> Plan | None:
     return OfflineInterpreter(MECANUM).interpret(text, Context()).plan
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.sampled_from(COMMANDS), st.sampled_from(NOUNS), st.integers(0, 12))
 def test_a_stray_word_never_changes_a_motion(command: str, noun: str, at: int) -> None:
     words = command.split()
@@ -48,7 +48,7 @@ def test_a_stray_word_never_changes_a_motion(command: str, noun: str, at: int) -
     assert plan_of(" ".join(words)) is None
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(
     st.sampled_from(COMMANDS), st.sampled_from(CONDITIONS), st.sampled_from(NOUNS), st.sampled_from(DOINGS)
 )

@@ -68,7 +68,7 @@ def quick(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 
 @pytest.mark.parametrize("name", WORLDS)
-def test_sentences_drive_to_each_place_and_back_by_its_first_and_last_name(name: str, quick: str) -> None:
+def test_sentences_drive_to_each_place_by_its_first_or_last_name(name: str, quick: str) -> None:
     """Each time from another place; where the robot then is, the simulator says. The other names lead to the same step
     (above)."""
     truth: list[TruePose] = []
@@ -82,8 +82,7 @@ def test_sentences_drive_to_each_place_and_back_by_its_first_and_last_name(name:
     connection = connect(setup, hear)
     world = connection.world
     places = list(world.places)
-    trip = [(place, world.names_of(place)[0]) for place in places]
-    trip += [(place, world.names_of(place)[-1]) for place in (*places[-2::-1], places[-1])]
+    trip = [(place, world.names_of(place)[-(number % 2)]) for number, place in enumerate(places)]
     missed = []
     for place, said in trip:
         sentence = f"去{said}" if has_chinese(said) else f"go to the {said}"

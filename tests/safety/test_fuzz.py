@@ -1,4 +1,4 @@
-"""Four thousand sequences of `make fuzz`, and the same promises kept in front of a state machine that shrinks."""
+"""Two thousand sequences of `make fuzz`, and the same promises kept in front of a state machine that shrinks."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from scripts import fuzz
 
 from chatrobot.core.geometry import Twist
 
-SEQUENCES = 4_000
-CHUNKS = 4
+SEQUENCES = 2_000
+CHUNKS = 2
 
 
 @pytest.mark.slow
