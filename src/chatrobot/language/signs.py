@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from chatrobot.language.compiled import Kept, Key, PhraseTable, by_first, compiled
-from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.data_files import LANGUAGES, expand, load_table, relation_words
 from chatrobot.language.lexicon import UNIT, lexicon
 from chatrobot.language.until import until_spans
 
@@ -246,8 +246,24 @@ def _signs(units: list[Unit], names: Names) -> Iterator[Sign]:
         else:
             if unit[0].isdecimal() or (unit[0] == "." and len(unit) > 1):
                 label, moves = "NUMBER", True
+        asked = _request_end(words, at, table, longest.get(unit, 0))
+        if asked > end:
+            label, moves, end = "request", False, asked
         yield Sign(label, "_".join(words[at:end]), moves, start, is_name=end == named.get(at))
         at = end
+
+
+def _request_end(words: Sequence[str], at: int, table: PhraseTable[tuple[str, bool]], longest: int) -> int:
+    """Where a request ends that begins `at` a word and has adverbs within: `I would very much like you to`; else 0."""
+    adverbs = relation_words("adverbs")
+    if adverbs.isdisjoint(words[at + 1 : at + longest]):
+        return 0
+    core = [at, *(i for i in range(at + 1, min(at + 2 * longest, len(words))) if words[i] not in adverbs)]
+    for count in range(min(longest, len(core)), 1, -1):
+        found = table.get(tuple(words[i] for i in core[:count]))
+        if found is not None and found[0] == "request":
+            return core[count - 1] + 1
+    return 0
 
 
 def _named(words: Sequence[str], names: Names) -> Iterator[tuple[int, int]]:
