@@ -37,7 +37,7 @@ from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.held import answered, answered_late, changed, is_taken_back, may_be_change
 from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
-from chatrobot.language.islands import island_steps
+from chatrobot.language.islands import of_islands
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import with_tails_parted
 from chatrobot.language.likeliest import likeliest, offer, proposed
@@ -165,15 +165,9 @@ class OfflineInterpreter:
             return pointed
         found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
         if found is None and not problem.refused:
-            found = self._of_islands(plain, reading)
+            found = of_islands(plain, reading)
         is_offer = found is not None and found.plan is None
         return None if is_offer and calls_somebody(read_acts(plain, names), reading.language) else found
-
-    def _of_islands(self, plain: str, reading: Reading) -> Interpretation | None:
-        """What the words of motion alone say, proposed."""
-        language = reading.language
-        steps, passed_over = island_steps(plain, rephrased(plain, language), reading)
-        return proposed(planned(steps, language), language, passed_over) if steps else None
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""

@@ -1,8 +1,8 @@
 """The order in a text that the rules do not cover: only what says motion is read, and all else is passed over.
 
-An island parser: each clause that tells an amount is kept, with the words of motion in it, in their order; a clause that
-only says which way or how is kept beside one. Whatever denies, bounds, doubts or puts right what is kept ends the search,
-and so does an amount that plays no part in the steps. What is found is proposed, never done.
+An island parser: each clause that tells an amount is kept, with the words of motion in it, in their order; a clause
+that only says which way or how is kept beside one. Whatever denies, bounds, doubts or puts right what is kept ends the
+search, and so does an amount that plays no part in the steps. What is found is proposed, never done (decision 65).
 """
 
 from __future__ import annotations
@@ -10,12 +10,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from chatrobot.language.acts import Read, order_log_odds, read_acts
+from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
 from chatrobot.language.clauses import read_frames
+from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.heeded import check_heeded
+from chatrobot.language.interpretation import Interpretation, planned
+from chatrobot.language.likeliest import FAR_M, proposed
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.reading import Reading
+from chatrobot.language.rephrase import rephrased
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
@@ -23,6 +27,8 @@ from chatrobot.plan.steps import Step
 
 LEAST_ODDS = -1.0
 """A text with lower odds of an order is offered nothing."""
+LEAST_DEG, MOST_DEG = 10.0, 720.0
+"""A bare number of degrees is at least and at most so many."""
 TALK_ODDS = -1.0
 """A clause with words of motion and higher odds of an order is not passed over."""
 _SIZES = frozenset({"length", "angle", "turns", "time", "clock"})
@@ -37,14 +43,18 @@ _ENDS = frozenset(
 )
 _BOUND = frozenset({"not", "condition", "later", "hypothetical"})
 _TOLD = frozenset({"earlier", "did", "past", "sees"})
+_WAYS = frozenset({"verb", "dir", "rot", "shape", "pace"})
 _MARKS = " ,.;:!?"
 
 
-def island_steps(plain: str, rephrased: str, reading: Reading) -> tuple[list[Step], list[str]]:
-    """The steps that the words of motion in a text say, and the parts passed over; no steps where that is not sure.
+def of_islands(plain: str, reading: Reading) -> Interpretation | None:
+    """What the words of motion in a normalised text say, proposed; None where that is doubtful or orders nothing."""
+    steps, passed_over = _read(plain, rephrased(plain, reading.language), reading)
+    return proposed(planned(steps, reading.language), reading.language, passed_over) if steps else None
 
-    `plain` is the text as it was normalised, `rephrased` as the rules read it.
-    """
+
+def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], list[str]]:
+    """The steps, and the parts passed over. `rewritten` is the text as the rules read it."""
     names = names_in(reading.context)
     if order_log_odds(read_acts(plain, names)) < LEAST_ODDS:
         return [], []
@@ -54,8 +64,8 @@ def island_steps(plain: str, rephrased: str, reading: Reading) -> tuple[list[Ste
     if reading.context.dialogue.last_motion is None:
         passable |= {"again"}
     try:
-        for read in read_acts(rephrased, names):
-            said = rephrased[read.clause.start : read.clause.stop]
+        for read in read_acts(rewritten, names):
+            said = rewritten[read.clause.start : read.clause.stop]
             clause = reading.atoms(said)
             kept = _kept(clause, read)
             if kept is None:
@@ -77,19 +87,18 @@ def _labels(read: Read) -> set[str]:
 def _check_passable(
     atoms: Sequence[Atom], read: Read, passable: frozenset[str] = frozenset(), *, follows: bool
 ) -> None:
-    """Raises where a clause that tells no amount may bear on what is kept: `follows` says that some of that came before.
+    """See that a clause without an amount may be passed over. `follows`: something that is kept came before it.
 
     Raises:
-        Unclear: naming it.
+        Unclear: it may bear on what is kept.
     """
-    labels = _labels(read)
-    bound = labels & (_BOUND if follows else _BOUND - {"not"})
+    bound = _labels(read) & (_BOUND if follows else _BOUND - {"not"})
     quotes = "report" in {sign.label for sign in read.clause.signs[-2:]} and read.clause.end != "."
     flags = [atom for atom in atoms if atom.kind == "flag" and atom.value not in passable]
-    does = any(atom.kind in ("verb", "dir", "rot", "shape", "pace") for atom in atoms)
+    does = any(atom.kind in _WAYS and atom.value not in ("halt", "make") for atom in atoms)
     ordered = read.log_odds > TALK_ODDS and (does or flags)
-    corrects = any(atom.kind in ("correction", "refuse") for atom in atoms) and follows
-    if bound or quotes or ordered or corrects or read.clause.end == "?":
+    refused = any(atom.kind == "refuse" or (follows and atom.kind == "correction") for atom in atoms)
+    if bound or quotes or ordered or refused or read.clause.end == "?":
         raise Unclear("unknown_part", " ".join(atom.text for atom in atoms))
 
 
@@ -99,22 +108,21 @@ def _kept(atoms: Sequence[Atom], read: Read) -> list[Atom] | None:
     Raises:
         Unclear: where something in it bears on that, and nobody knows how.
     """
-    ways = any(atom.kind in ("verb", "dir", "rot", "pace") for atom in atoms)
+    ways = any(atom.kind in _WAYS and atom.value not in ("halt", "make") for atom in atoms)
     if not any(_is_size(atom) for atom in atoms) and not (_bare_numbers(atoms) and ways):
         bare = all(atom.kind in (*_SLOTS, *SILENT) for atom in atoms)
         slots = [atom for atom in atoms if atom.kind in _SLOTS or atom.kind == "conn"]
         return slots if bare and ways and read.log_odds > TALK_ODDS else None
     labels = _labels(read)
-    bound = labels & (_BOUND | _TOLD) - ({"condition"} if any(a.value == "until" for a in atoms) else set())
+    is_order = read.log_odds >= ORDER
+    bound = labels & (_BOUND if is_order else _BOUND | _TOLD)
+    bound -= {"condition"} if any(atom.value == "until" for atom in atoms) else set()
     flags = [atom for atom in atoms if atom.kind == "flag" and atom.value not in _FLAGS | _IDLE]
-    quotes = "report" in labels and "mine" not in labels
+    quotes = "report" in labels and "mine" not in labels and not is_order
     if bound or flags or quotes or any(atom.kind in _ENDS for atom in atoms):
         raise Unclear("unknown_part", " ".join(atom.text for atom in atoms))
-    kinds = (*_SLOTS, "conn", "sep", "flag", "letter")
-    return [atom for atom in _mended(atoms) if atom.kind in kinds and (atom.kind, atom.value) not in _IDLE_ATOMS]
-
-
-_IDLE_ATOMS = frozenset(("flag", value) for value in _IDLE)
+    kinds = (*_SLOTS, "conn", "sep", "letter")
+    return [a for a in _mended(atoms) if a.kind in kinds or (a.kind == "flag" and a.value not in _IDLE)]
 
 
 def _is_size(atom: Atom) -> bool:
@@ -126,20 +134,35 @@ def _bare_numbers(atoms: Sequence[Atom]) -> list[Atom]:
 
 
 def _mended(atoms: Sequence[Atom]) -> Iterator[Atom]:
-    """The atoms; a bare number beside a side is degrees.
+    """The atoms; a bare number is degrees beside a side or a turn, else metres, or centimetres where that would be far.
+
+    One that counts what nobody knows is left out.
 
     Raises:
         Unclear: for any other bare number.
     """
-    for i, atom in enumerate(atoms):
+    told = [atom for atom in atoms if atom.kind not in ("filler", "glue")]
+    for i, atom in enumerate(told):
         if (atom.kind, atom.value) != ("q", "number"):
             yield atom
-            continue
-        beside = (*atoms[max(i - 1, 0) : i], *atoms[i + 1 : i + 2])
-        sided = any(other.kind == "rot" or other.value in ("left", "right") for other in beside)
-        if not (sided and 10 <= atom.number <= 720 and atom.number % 5 == 0):
-            raise Unclear("no_unit", atom.text)
-        yield quantity("angle", math.radians(atom.number), atom.text)
+        elif i + 1 == len(told) or told[i + 1].kind != "unknown":
+            yield _measured(atom, told, i)
+
+
+def _measured(number: Atom, atoms: Sequence[Atom], at: int) -> Atom:
+    """The bare number that stands `at` a place among the atoms of its clause, as an amount.
+
+    Raises:
+        Unclear: nothing beside it says what it measures.
+    """
+    beside = (*atoms[max(at - 1, 0) : at], *atoms[at + 1 : at + 2])
+    sided = any(atom.kind == "rot" or atom.value in SIDES for atom in beside)
+    turns = any(atom.kind == "rot" or (atom.kind == "verb" and atom.value in TURN) for atom in atoms)
+    if (sided or turns) and LEAST_DEG <= number.number <= MOST_DEG:
+        return quantity("angle", math.radians(number.number), number.text)
+    if sided or turns or not any(atom.kind == "dir" or atom.value in GO for atom in atoms):
+        raise Unclear("no_unit", number.text)
+    return quantity("length", number.number * (1.0 if number.number <= FAR_M else 0.01), number.text)
 
 
 def _steps(atoms: list[Atom], reading: Reading) -> list[Step]:
