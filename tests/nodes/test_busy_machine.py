@@ -1,6 +1,6 @@
 """Beside eight processes that keep both cores busy what is asked for is done, and who dies or freezes stops the robot.
 
-Two robots with their nodes at once, and short motions, so that 48 take a quarter of a minute; `make busy` drives
+Two robots with their nodes at once, and short motions, so that 32 take ten seconds; `make busy` drives
 two hundred, for a second each.
 """
 
@@ -25,8 +25,8 @@ from tests.nodes.node_rig import NodeRig
 
 pytestmark = [pytest.mark.realtime, pytest.mark.alone]
 
-SETS, MOTIONS = 2, 48
-LINES = [*TUTORIAL_LINES[:4], *SHORT_LINES, *itertools.repeat(FOUR_AT_ONCE, 4)]
+SETS, MOTIONS = 2, 32
+LINES = [*TUTORIAL_LINES[:4], *SHORT_LINES, *itertools.repeat(FOUR_AT_ONCE, 2)]
 PROMISE_S = 0.25
 FROZEN = ("base", "input", "control")
 KILLED = ("base", "control")
@@ -46,7 +46,7 @@ def rigs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[NodeRig]]:
             list(pool.map(NodeRig.close, made))
 
 
-def test_of_48_motions_none_ends_before_its_time_and_none_reverses(rigs: list[NodeRig]) -> None:
+def test_of_32_motions_none_ends_before_its_time_and_none_reverses(rigs: list[NodeRig]) -> None:
     with ThreadPoolExecutor(SETS) as pool:
         driven = [one for of_one in pool.map(lambda rig: drive_lines(rig, LINES), rigs) for one in of_one]
     late = [one.late_s for one in driven if one.late_s]
