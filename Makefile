@@ -43,7 +43,7 @@ AGAIN := --last-failed --last-failed-no-failures none
 # Looking through all other files costs each process five seconds; tests/conftest.py sees to it that none is missed.
 REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark\.realtime' tests)) tests/ros
 test: lint
-	$(BIN)/pytest -m "not realtime" -n 3
+	$(BIN)/pytest -m "not realtime" -n 4
 	$(BIN)/pytest -m "realtime and not alone" -n 4 --dist loadfile $(REALTIME) || \
 		$(BIN)/pytest -m "realtime and not alone" $(AGAIN) $(REALTIME)
 	$(BIN)/pytest -m alone $(REALTIME) || $(BIN)/pytest -m alone $(AGAIN) $(REALTIME)

@@ -12,7 +12,6 @@ OFFERED = {
     "I know I said no moving before lunch but please go forward 50 cm": "drive 0.5 m",
     "mum says dinner in five, one more thing: left 90, then 2 m, then right 90":
         "turn left 90 deg; drive 2 m; turn right 90 deg",
-    "measure twice, cut once, as dad says. 85 cm forward.": "drive 0.85 m",
     "back up until you're half a metre behind where you are now": "drive 0.5 m back",
     "zigzag: 45 left 50 cm, 90 right 50 cm, 90 left 50 cm":
         "turn left 45 deg; drive 0.5 m; turn right 90 deg; drive 0.5 m; turn left 90 deg; drive 0.5 m",

@@ -164,8 +164,7 @@ class OfflineInterpreter:
         if pointed is not None:
             return pointed
         found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
-        if found is None and not problem.refused:
-            found = of_islands(plain, reading)
+        found = found or of_islands(plain, problem, reading)
         is_offer = found is not None and found.plan is None
         return None if is_offer and calls_somebody(read_acts(plain, names), reading.language) else found
 

@@ -15,11 +15,12 @@ from chatrobot.language.clauses import read_frames
 from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned
-from chatrobot.language.likeliest import FAR_M, proposed
+from chatrobot.language.likeliest import FAR_M, STUMBLED, proposed
 from chatrobot.language.names import names_in
 from chatrobot.language.order import in_order
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
+from chatrobot.language.strange_words import may_be_needed
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
@@ -36,8 +37,9 @@ _SLOTS = frozenset({"verb", "dir", "rot", "q", "pace", "shape", "role"})
 _FLAGS = frozenset(
     {"in_place", "no_turn", "sideways", "each", "diagonal", "bearing", "after_each", "between", "while"}
 )
-_IDLE = frozenset({"until", "more", "total", "first", "all", "bit", "closer", "again"})
+_IDLE = frozenset({"until", "more", "total", "first", "all", "bit", "closer"})
 """Flags that an amount behind them makes idle: `until you've covered 2 m`."""
+_PASSABLE = frozenset({"there", "in_place", "no_turn"})
 _ENDS = frozenset(
     {"condition", "negation", "correction", "doubt", "refuse", "operator", "place", "defined", "order"}
 )
@@ -47,8 +49,16 @@ _WAYS = frozenset({"verb", "dir", "rot", "shape", "pace"})
 _MARKS = " ,.;:!?"
 
 
-def of_islands(plain: str, reading: Reading) -> Interpretation | None:
-    """What the words of motion in a normalised text say, proposed; None where that is doubtful or orders nothing."""
+def of_islands(plain: str, problem: Unclear, reading: Reading) -> Interpretation | None:
+    """What the words of motion in a normalised text say, proposed; None where that is doubtful or orders nothing.
+
+    `problem` is why the rules did not read it: what contradicts itself, say, is not read otherwise.
+    """
+    may_change = (
+        reading.context.dialogue.last_motion is not None
+    )  # `two more`: a bare number is of what was done
+    if problem.refused or problem.code not in STUMBLED | (set() if may_change else {"no_unit"}):
+        return None
     steps, passed_over = _read(plain, rephrased(plain, reading.language), reading)
     return proposed(planned(steps, reading.language), reading.language, passed_over) if steps else None
 
@@ -60,18 +70,17 @@ def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], lis
         return [], []
     atoms: list[Atom] = []
     over: list[str] = []
-    passable = frozenset({"there", "in_place", "no_turn"})
-    if reading.context.dialogue.last_motion is None:
-        passable |= {"again"}
     try:
         for read in read_acts(rewritten, names):
             said = rewritten[read.clause.start : read.clause.stop]
-            clause = reading.atoms(said)
+            clause = _atoms_of(said, reading)
             kept = _kept(clause, read)
             if kept is None:
-                _check_passable(clause, read, passable, follows=bool(atoms))
+                _check_passable(clause, read, follows=bool(atoms))
                 over.append(said.strip(_MARKS))
             else:
+                if may_be_needed(read.clause, names):
+                    return [], []
                 over += [atom.text for atom in clause if atom.kind == "unknown"]
                 is_end = read.clause.end in tuple(".!?;\n")
                 atoms += [*kept, Atom("sep", "strong" if is_end else "weak", read.clause.end)]
@@ -80,13 +89,19 @@ def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], lis
         return [], []
 
 
+def _atoms_of(clause: str, reading: Reading) -> list[Atom]:
+    """The atoms of a clause. Where nothing was done before, `one more try` refers to nothing."""
+    atoms = reading.atoms(clause)
+    if reading.context.dialogue.last_motion is not None or any(map(_counts, atoms)):
+        return atoms
+    return [atom for atom in atoms if (atom.kind, atom.value) != ("flag", "again")]
+
+
 def _labels(read: Read) -> set[str]:
     return {sign.label for sign in read.clause.signs}
 
 
-def _check_passable(
-    atoms: Sequence[Atom], read: Read, passable: frozenset[str] = frozenset(), *, follows: bool
-) -> None:
+def _check_passable(atoms: Sequence[Atom], read: Read, *, follows: bool) -> None:
     """See that a clause without an amount may be passed over. `follows`: something that is kept came before it.
 
     Raises:
@@ -94,11 +109,11 @@ def _check_passable(
     """
     bound = _labels(read) & (_BOUND if follows else _BOUND - {"not"})
     quotes = "report" in {sign.label for sign in read.clause.signs[-2:]} and read.clause.end != "."
-    flags = [atom for atom in atoms if atom.kind == "flag" and atom.value not in passable]
+    flags = [atom for atom in atoms if atom.kind == "flag" and atom.value not in _PASSABLE]
     does = any(atom.kind in _WAYS and atom.value not in ("halt", "make") for atom in atoms)
     ordered = read.log_odds > TALK_ODDS and (does or flags)
     refused = any(atom.kind == "refuse" or (follows and atom.kind == "correction") for atom in atoms)
-    if bound or quotes or ordered or refused or read.clause.end == "?":
+    if bound or quotes or ordered or refused or any(map(_counts, atoms)) or read.clause.end == "?":
         raise Unclear("unknown_part", " ".join(atom.text for atom in atoms))
 
 
@@ -123,6 +138,10 @@ def _kept(atoms: Sequence[Atom], read: Read) -> list[Atom] | None:
         raise Unclear("unknown_part", " ".join(atom.text for atom in atoms))
     kinds = (*_SLOTS, "conn", "sep", "letter")
     return [a for a in _mended(atoms) if a.kind in kinds or (a.kind == "flag" and a.value not in _IDLE)]
+
+
+def _counts(atom: Atom) -> bool:
+    return atom.kind == "q" and atom.value in ("times", "count")
 
 
 def _is_size(atom: Atom) -> bool:
@@ -156,6 +175,8 @@ def _measured(number: Atom, atoms: Sequence[Atom], at: int) -> Atom:
         Unclear: nothing beside it says what it measures.
     """
     beside = (*atoms[max(at - 1, 0) : at], *atoms[at + 1 : at + 2])
+    if number.number < 1.0 or (at and atoms[at - 1].kind == "unknown"):
+        raise Unclear("no_unit", number.text)
     sided = any(atom.kind == "rot" or atom.value in SIDES for atom in beside)
     turns = any(atom.kind == "rot" or (atom.kind == "verb" and atom.value in TURN) for atom in atoms)
     if (sided or turns) and LEAST_DEG <= number.number <= MOST_DEG:

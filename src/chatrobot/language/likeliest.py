@@ -50,7 +50,7 @@ MOST_CLAUSES, MOST_PARTS, MOST_READS = 12, 4, 16
 """So many clauses are looked at one by one, so many parts are left out of what is proposed, and so many texts read."""
 SURE_TALK, SURE_CONDITION = -1.5, 1.0
 """In a text that orders nothing as a whole, what is left out has lower odds of an order."""
-_STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
+STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
 """Why a text was not read, where it may have talk in it that no mark sets off."""
 FAR_M = 10.0
 """A bare number above that is no number of metres."""
@@ -90,10 +90,10 @@ def likeliest(
         best = max(best, ORDER)
     if len(reads) > MOST_CLAUSES:
         return None
-    is_closed = problem.refused or problem.code not in _STUMBLED
+    is_closed = problem.refused or problem.code not in STUMBLED
     search = _Search(names, language, read, read_anew, best, asks, is_closed)
     if best < ORDER:
-        return search.proposal(plain, problem) if problem.code in _STUMBLED else None
+        return search.proposal(plain, problem) if problem.code in STUMBLED else None
     if problem.code == "no_unit":
         return _with_unit(plain, problem.part, language, read, unit)
     odds = {} if asks else asides(reads)
@@ -170,7 +170,7 @@ class _Search:
             yield from (span for span in told if span.log_odds < SURE_TALK and not span.tells)
             return
         yield from self._clause(text, stumbled)
-        if self.is_closed or stumbled.refused or stumbled.code not in _STUMBLED:
+        if self.is_closed or stumbled.refused or stumbled.code not in STUMBLED:
             return
         if not self.asks:
             yield from (span for span in told_spans(text, self.names, at) if span.log_odds < NO_ORDER)

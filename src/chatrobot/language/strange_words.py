@@ -64,6 +64,21 @@ def strange_spans(text: str, names: Names, at: range) -> Iterator[Span]:
         yield _span(text, clause, begin, end, points=points or is_whole)
 
 
+def may_be_needed(clause: Clause, names: Names) -> bool:
+    """Whether a word in it that nobody knows may be what is done, how far, with what or to what."""
+    signs = clause.signs
+    at = 0
+    while at < len(signs):
+        end = at
+        while end < len(signs) and not signs[end].moves and _is_strange(signs[end], names):
+            end += 1
+        words = [unit for sign in signs[at:end] for unit in sign.text.split("_")]
+        if end > at and (any(map(names_way, words)) or _is_needed(signs, at, end) or _is_number(signs, end)):
+            return True
+        at = end + 1
+    return False
+
+
 def _span(text: str, clause: Clause, begin: int, end: int, *, points: bool = False) -> Span:
     start, stop = extent(text, clause, begin, end)
     return Span(without(text, start, stop), text[start:stop].strip(MARKS), points=points)
