@@ -36,17 +36,19 @@ lint: setup
 # Where no process may keep its bytecode, each compiles all of ours anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-# Real processes in real time come after the rest, four at a time: they mostly wait. Those that measure a promise come
+# Real processes in real time come after the rest, three at a time: they mostly wait. Those that measure a promise come
 # last, alone. What fails is tried once more with nothing beside it: a busy machine may hold a process up once, but a
 # promise that is broken twice is broken.
 AGAIN := --last-failed --last-failed-no-failures none
 # Looking through all other files costs each process five seconds; tests/conftest.py sees to it that none is missed.
 REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark\.realtime' tests)) tests/ros
+# Python 3.11 cannot parse a source for pytest's own tracebacks where a browser is driven, and then no test goes on.
+PLAIN := --tb=native
 test: lint
-	$(BIN)/pytest -m "not realtime" -n 4
-	$(BIN)/pytest -m "realtime and not alone" -n 4 --dist loadfile $(REALTIME) || \
-		$(BIN)/pytest -m "realtime and not alone" $(AGAIN) $(REALTIME)
-	$(BIN)/pytest -m alone $(REALTIME) || $(BIN)/pytest -m alone $(AGAIN) $(REALTIME)
+	$(BIN)/pytest -m "not realtime" -n 3
+	$(BIN)/pytest -m "realtime and not alone" -n 3 --dist loadfile $(PLAIN) $(REALTIME) || \
+		$(BIN)/pytest -m "realtime and not alone" $(AGAIN) $(PLAIN) $(REALTIME)
+	$(BIN)/pytest -m alone $(PLAIN) $(REALTIME) || $(BIN)/pytest -m alone $(AGAIN) $(PLAIN) $(REALTIME)
 
 bench: setup
 	@for file in bench/[a-z]*.py; do \

@@ -41,7 +41,7 @@ def test_a_result_that_offers_nothing_says_so() -> None:
     assert Talk().session.do("forward 10 cm").to_json()["proposal"] is None
 
 
-@pytest.mark.parametrize("word", ["yes", "y", "Yes, do it!", "go ahead", "ok", "好的", "可以"])
+@pytest.mark.parametrize("word", ["y", "Yes, do it!", "好的"])
 def test_a_yes_runs_the_plan(word: str) -> None:
     talk = asked()
     result = talk.session.do(word)

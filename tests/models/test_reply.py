@@ -101,23 +101,6 @@ def test_pieces_are_handed_on_as_they_come() -> None:
 
 
 @pytest.mark.realtime
-def test_our_own_part_of_a_call_is_short() -> None:
-    """From `ask` to the end of a reply that the server gives at once, with the server's own part in it.
-
-    In processor time: a busy machine makes a call longer, but not more work. `bench.models` measures both.
-    """
-    with serving([{"match": "", "text": "drive 1 m"}]) as fake:
-        for provider in WIRES:
-            model = model_at(provider, fake.url)
-            for _ in range(5):  # the library makes ready what it needs when it first needs it
-                Got(model, "warm up")
-            began_s = time.process_time()
-            for _ in range(9):
-                Got(model, "go")
-            assert (time.process_time() - began_s) / 9 < OVERHEAD_S, provider
-
-
-@pytest.mark.realtime
 def test_asking_and_making_return_at_once() -> None:
     with serving([{"match": "", "first_piece_s": 30}]) as fake:
         began_s = time.monotonic()

@@ -60,7 +60,7 @@ def test_the_page_shows_the_poses_of_the_recording_to_the_centimetre(
     browser: Browser, tmp_path: Path
 ) -> None:
     recording = read(session(tmp_path / "drive.mcap", SAID))
-    arguments = [sys.executable, "-m", "chatrobot", "replay", str(recording.path), "--web", "--speed", "8"]
+    arguments = [sys.executable, "-m", "chatrobot", "replay", str(recording.path), "--web", "--speed", "4"]
     replay = TalkingProcess(arguments, {**os.environ, "PYTHONUNBUFFERED": "1"})
     try:
         found = re.search(r"http://\S+/", replay.wait_for_line("http://"))
