@@ -36,7 +36,7 @@ lint: setup
 # Where no process may keep its bytecode, each compiles all of ours anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-# Real processes in real time come after the rest, three at a time: they mostly wait. Those that measure a promise come
+# Real processes in real time come after the rest, two at a time: each has several processes. Those that measure a promise come
 # last, alone. What fails is tried once more with nothing beside it: a busy machine may hold a process up once, but a
 # promise that is broken twice is broken.
 AGAIN := --last-failed --last-failed-no-failures none
@@ -46,7 +46,7 @@ REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark
 PLAIN := --tb=native
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 3
-	$(BIN)/pytest -m "realtime and not alone" -n 3 --dist loadfile $(PLAIN) $(REALTIME) || \
+	$(BIN)/pytest -m "realtime and not alone" -n 2 --dist loadfile $(PLAIN) $(REALTIME) || \
 		$(BIN)/pytest -m "realtime and not alone" $(AGAIN) $(PLAIN) $(REALTIME)
 	$(BIN)/pytest -m alone $(PLAIN) $(REALTIME) || $(BIN)/pytest -m alone $(AGAIN) $(PLAIN) $(REALTIME)
 
