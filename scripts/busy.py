@@ -29,7 +29,7 @@ def motions(count: int, busy: int) -> list[Driven]:
     with tempfile.TemporaryDirectory() as folder, running(Path(folder)) as rig, busy_processes(busy):
         for line in itertools.islice(itertools.cycle(TUTORIAL_LINES), count):
             driven.append(drive_line(rig, line))
-            if driven[-1].problems:
+            if driven[-1].problems or driven[-1].is_halted:
                 print(driven[-1], flush=True)
     return driven
 
@@ -54,7 +54,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--busy", type=int, default=BUSY, help="processes that never wait")
     options = parser.parse_args(arguments)
     driven = motions(options.motions, options.busy)
-    load, failed = os.getloadavg()[0], sum(bool(one.problems) for one in driven)
+    load, failed = os.getloadavg()[0], sum(bool(one.problems) or one.is_halted for one in driven)
     late_s = [one.late_s for one in driven if one.late_s]
     print(f"{len(driven)} motions beside {options.busy} busy processes (load {load:.0f}): {failed} failed,")
     print(f"  {len(late_s)} slowed by a late heartbeat, at most {max(late_s, default=0.0):.2f} s late")

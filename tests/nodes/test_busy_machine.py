@@ -1,7 +1,8 @@
 """Beside eight processes that keep both cores busy what is asked for is done, and who dies or freezes stops the robot.
 
 Two robots with their nodes at once, and short motions, so that 32 take ten seconds; `make busy` drives
-two hundred, for a second each.
+two hundred, for a second each. Where a process gets no turn for too long, the robot is stopped and that is said;
+such a line is driven again.
 """
 
 from __future__ import annotations
@@ -46,15 +47,17 @@ def rigs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[NodeRig]]:
             list(pool.map(NodeRig.close, made))
 
 
-def test_of_32_motions_none_ends_before_its_time_and_none_reverses(rigs: list[NodeRig]) -> None:
+def test_of_32_motions_none_ends_early_unsaid_and_none_reverses(rigs: list[NodeRig]) -> None:
     with ThreadPoolExecutor(SETS) as pool:
         driven = [one for of_one in pool.map(lambda rig: drive_lines(rig, LINES), rigs) for one in of_one]
     late = [one.late_s for one in driven if one.late_s]
+    halted = sum(one.is_halted for one in driven)
     print(
-        f"{len(late)} of {len(driven)} texts slowed by a late heartbeat, at most {max(late, default=0.0):.2f} s"
+        f"{len(late)} of {len(driven)} texts slowed by a late heartbeat, at most {max(late, default=0.0):.2f} s; "
+        f"{halted} halted"
     )
-    assert sum(len(one.line.twists) for one in driven) == MOTIONS
     assert [str(one) for one in driven if one.problems] == []
+    assert sum(len(one.line.twists) for one in driven if not one.is_halted) == MOTIONS
 
 
 def test_whoever_freezes_or_dies_stops_the_robot_in_time_and_no_thaw_resumes_it(rigs: list[NodeRig]) -> None:

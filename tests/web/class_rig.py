@@ -68,6 +68,7 @@ class RunningClass(TalkingProcess):
             "proxy": None,
             "max_size": 2**22,
             "close_timeout": 0.5,
+            "ping_interval": None,  # an answer would wait behind what a test does not read
         }
         address = f"ws://127.0.0.1:{port or self.port}{path}"
         return Client(self._dialled.enter_context(connect(address, origin=self.origin, **how)))

@@ -34,6 +34,14 @@ def pupils(shared: RunningClass) -> Iterator[RunningClass]:
     shared.hang_up()
 
 
+@pytest.fixture
+def browsing(browser: Browser, pupils: RunningClass) -> Iterator[Browser]:
+    """A browser whose pages are closed before the class hangs up, whatever became of the test."""
+    yield browser
+    for context in browser.contexts:
+        context.close()
+
+
 @pytest.fixture(scope="module")
 def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningClass]:
     running = RunningClass(tmp_path_factory.mktemp("class"))
@@ -218,9 +226,9 @@ def test_a_pupils_link_is_for_one_robot_and_not_for_the_class(pupils: RunningCla
 
 
 def test_a_pupil_who_opens_the_teachers_page_is_told_that_it_is_not_theirs(
-    pupils: RunningClass, browser: Browser
+    pupils: RunningClass, browsing: Browser
 ) -> None:
-    page = open_page(browser, f"{pupils.origin}/#{pupils.pupils_tokens()[1]}")
+    page = open_page(browsing, f"{pupils.origin}/#{pupils.pupils_tokens()[1]}")
     expect(page.locator("#robot-title")).to_contain_text("Pupil 2 · ")
     page.get_by_role("button", name="Hint").click()
     expect(page.locator("#turns .line").last).to_contain_text("Hint: ")
@@ -228,14 +236,13 @@ def test_a_pupil_who_opens_the_teachers_page_is_told_that_it_is_not_theirs(
     page.goto(f"{pupils.origin}/teacher")
     expect(page.locator("#connection-banner")).to_contain_text("This page may not come in")
     expect(page.locator("#robots li")).to_have_count(0)
-    page.context.close()
 
 
 def test_two_pupils_links_in_one_browser_stay_each_with_their_own_robot(
-    pupils: RunningClass, browser: Browser
+    pupils: RunningClass, browsing: Browser
 ) -> None:
     tokens = pupils.pupils_tokens()
-    first = open_page(browser, f"{pupils.origin}/#{tokens[0]}")
+    first = open_page(browsing, f"{pupils.origin}/#{tokens[0]}")
     second = first.context.new_page()
     second.goto(f"{pupils.origin}/#{tokens[1]}")
     expect(second.locator("#robot-title")).to_contain_text("Pupil 2 · ")
@@ -249,18 +256,17 @@ def test_two_pupils_links_in_one_browser_stay_each_with_their_own_robot(
     second.keyboard.press("Escape")
     expect(second.locator("#stop-said")).to_have_text("The robot was told to stop.")
     expect(first.locator("#robot-state")).to_have_text("Moving")
-    first.context.close()
 
 
 def test_a_revoked_link_ends_its_page_and_its_motion_and_another_is_given(
-    pupils: RunningClass, browser: Browser
+    pupils: RunningClass, browsing: Browser
 ) -> None:
     drive(
         pupils, 0, 1
     )  # not from the browser: a busy machine holds its beats up, and the robot stops for that
     old = pupils.pupils_tokens()[0]
-    pupil = open_page(browser, f"{pupils.origin}/#{old}")
-    teacher = browser.new_page(locale="en-GB")
+    pupil = open_page(browsing, f"{pupils.origin}/#{old}")
+    teacher = browsing.new_page(locale="en-GB")
     teacher.goto(f"{pupils.origin}/teacher#{pupils.token}")
     teacher.get_by_role("button", name="New link: Pupil 1").click()
     said_s = time.monotonic()
@@ -273,15 +279,13 @@ def test_a_revoked_link_ends_its_page_and_its_motion_and_another_is_given(
     pupil.goto(f"{pupils.origin}/?as=pupil-1#{pupils.pupils_tokens()[0]}")  # pasted into the same tab
     expect(pupil.locator("#steering-state")).to_have_text("You steer")
     expect(pupil.locator("#turns .robot").last).to_contain_text("the teacher has ended this link")
-    teacher.close()
-    pupil.context.close()
 
 
 @pytest.mark.parametrize("dark", [False, True])
 def test_axe_finds_nothing_on_the_teachers_page(
-    pupils: RunningClass, browser: Browser, *, dark: bool
+    pupils: RunningClass, browsing: Browser, *, dark: bool
 ) -> None:
-    page = browser.new_page(color_scheme="dark" if dark else "light", locale="en-GB")
+    page = browsing.new_page(color_scheme="dark" if dark else "light", locale="en-GB")
     page.goto(f"{pupils.origin}/teacher#{pupils.token}")
     page.get_by_text("Recordings of this class").click()
     page.get_by_role("button", name="Delete: Pupil 1").click()
@@ -295,7 +299,6 @@ def test_axe_finds_nothing_on_the_teachers_page(
     assert find_violations(page) == []
     page.get_by_role("button", name="Release all emergency stops").click()
     expect(page.get_by_role("button", name="Release emergency stop: Pupil 3")).to_be_hidden()
-    page.close()
 
 
 def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: RunningClass) -> None:
