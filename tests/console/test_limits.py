@@ -20,6 +20,7 @@ def pumped(controller):
     [
         ("", {}),
         ("200 m", {"max_distance_m": 200.0}),
+        ("50 cm", {"max_distance_m": 0.5}),
         ("200m", {"max_distance_m": 200.0}),
         ("1.5 km", {"max_distance_m": 1500.0}),
         ("20 min", {"max_time_s": 1200.0}),

@@ -99,10 +99,13 @@ def test_a_stop_while_a_way_is_looked_for_is_a_stop() -> None:
 def test_what_was_put_there_is_known_and_cannot_stand_on_the_robot() -> None:
     talk = Talk()
     for request in ({"add": "box", "circle": [1.0, 1.0, 0.2]}, {"add": "box", "circle": [0.1, 0.0, 0.2]},
-                    {"remove": "sofa"}, {"add": "x", "polygon": [[1, 1], [2, 2]]}):  # fmt: skip
+                    {"add": "far", "circle": [50.0, 1.0, 0.2]}, {"remove": "sofa"},
+                    {"add": "x", "polygon": [[1, 1], [2, 2]]}):  # fmt: skip
         talk.session.change_obstacle(**request)
         talk.session.pump(0.1)
-    assert talk.codes == ["obstacle_added", "obstacle_on_robot", "obstacle_unknown", "obstacle_unclear"]
+    assert talk.codes == [
+        "obstacle_added", "obstacle_on_robot", "obstacle_far", "obstacle_unknown", "obstacle_unclear",
+    ]  # fmt: skip
     assert len(talk.told(ObstacleChanged)) == 1
     assert [one.name for one in talk.connection.world.obstacles if one.is_added] == ["box"]
     assert "box" in talk.session.do("left 1 m, then forward 1 m").reply

@@ -5,6 +5,7 @@ It reads the text anew, in the context in which it was said; nothing of it is ke
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -51,8 +52,10 @@ def explain(text: str, context: Context, interpreter: OfflineInterpreter) -> lis
     if known != said:
         lines.append(told("why_known", text=known[:_SHOWN]))
     for read in reads:
-        odds = f"{read.log_odds:+.1f}"
-        lines.append(told(_act(read), part=_part(plain, read), odds=odds, words=_signs(read)))
+        act = _act(read)
+        sure = _percent(-read.log_odds if act == "why_talk" else read.log_odds)
+        limits = {"done": _percent(ORDER), "proposed": _percent(MAYBE_ORDER)} if act == "why_doubtful" else {}
+        lines.append(told(act, part=_part(plain, read), sure=sure, words=_signs(read), **limits))
     lines += [
         told("why_rule", number=number, part=part.strip(), text=after[:_SHOWN])
         for number, part, after in rewritings(plain, language)
@@ -70,6 +73,10 @@ def _act(read: Read) -> str:
     return "why_talk" if read.log_odds < MAYBE_ORDER else "why_doubtful"
 
 
+def _percent(log_odds: float) -> str:
+    return f"{min(99.0, 100 / (1 + math.exp(-log_odds))):.0f}"
+
+
 def _part(plain: str, read: Read) -> str:
     return plain[read.clause.start : read.clause.stop].strip(" ,.;:!")
 
@@ -77,14 +84,20 @@ def _part(plain: str, read: Read) -> str:
 def _signs(read: Read) -> str:
     """What tells an order from talk in it: each word that is in a class, and the class."""
     known = [sign for sign in read.clause.signs if sign.label != sign.text]
-    return ", ".join(f"{sign.text.replace('_', ' ')} = {sign.label}" for sign in known) or "–"
+    return (
+        ", ".join(f"{sign.text.replace('_', ' ')} = {sign.label.lower().replace('_', ' ')}" for sign in known)
+        or "–"
+    )
 
 
 def _words(rewritten: str, context: Context) -> str:
     """The words that say what to do, with the kind and the value that each has in the lexicon."""
     atoms = read_quantities(tokenise(rewritten, lexicon(), names_in(context)))
     told = [atom for atom in atoms if atom.kind not in SILENT]
-    return ", ".join(f"{atom.text} = {atom.kind} {atom.value}".strip() for atom in told)
+    return ", ".join(
+        f"{atom.text} = {atom.kind} {'' if str(atom.value) == atom.text else atom.value}".strip()
+        for atom in told
+    )
 
 
 def _decided(meant: Interpretation) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any
 
 from mcp_types import CallToolResult
 
@@ -17,7 +17,7 @@ from chatrobot.mcp_server.robot import AgentRobot
 from chatrobot.mcp_server.told import answer, course_told, error
 from chatrobot.programs.library import KeptProgram, Provenance, clean_name, today
 
-Action = Literal["list", "show", "write", "rehearse", "run"]
+ACTIONS = ("list", "show", "write", "rehearse", "run")
 MOST_WORDS_CHARS = 4_000
 
 
@@ -29,13 +29,15 @@ class ProgramTool:
         self._calls = calls
 
     async def do(
-        self, action: Action, name: str, text: str, report: Report, line: Line | None
+        self, action: str, name: str, text: str, report: Report, line: Line | None
     ) -> CallToolResult:
         """Do one action.
 
         Raises:
             ChatRobotError: there is no robot, no such program, or it cannot be kept.
         """
+        if action not in ACTIONS:
+            return error(f"{action!r} is no action: {', '.join(ACTIONS)}.", "bad_arguments")
         authoring = (await self._robot.ready()).session.authoring
         if authoring is None:
             return error("This robot runs no programs.", "no_programs")

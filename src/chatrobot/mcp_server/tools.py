@@ -6,17 +6,18 @@ import asyncio
 import base64
 import time
 from collections.abc import Awaitable, Callable
-from typing import Any, Literal
+from typing import Annotated, Any
 
 from mcp.server.mcpserver import Context
 from mcp_types import CallToolResult, ContentBlock, ImageContent
+from pydantic import Field
 
 from chatrobot.core.errors import ChatRobotError, InputError
 from chatrobot.core.events import Event, Looked
 from chatrobot.dialogue.session import Session
 from chatrobot.mcp_server import surroundings
 from chatrobot.mcp_server.calls import Calls, Line, Report
-from chatrobot.mcp_server.program_tool import ProgramTool
+from chatrobot.mcp_server.program_tool import ACTIONS, ProgramTool
 from chatrobot.mcp_server.robot import AgentRobot
 from chatrobot.mcp_server.told import answer, course_told, error, pose_told, release_refused
 from chatrobot.plan.json_form import plan_from_json
@@ -67,7 +68,7 @@ class Tools:
     async def programs(
         self,
         ctx: Context[Any, Any],
-        action: Literal["list", "show", "write", "rehearse", "run"] = "list",
+        action: Annotated[str, Field(json_schema_extra={"enum": [*ACTIONS]})] = "list",
         name: str = "",
         text: str = "",
     ) -> CallToolResult:

@@ -226,9 +226,9 @@ COMMANDS = (
 BY_NAME = {command.name: command for command in COMMANDS}
 
 
-_DISTANCES: Mapping[str, float] = {"m": 1.0, "km": 1000.0}
+_DISTANCES: Mapping[str, float] = {"cm": 0.01, "m": 1.0, "km": 1000.0}
 _TIMES: Mapping[str, float] = {"s": 1.0, "min": 60.0, "h": 3600.0}
-_AMOUNT = re.compile(rf"({NONE}|\d+(?:\.\d+)?|\.\d+)\s*(km|m|min|s|h)?(?![\w.])[\s,]*", re.ASCII)
+_AMOUNT = re.compile(rf"({NONE}|\d+(?:\.\d+)?|\.\d+)\s*(cm|km|m|min|s|h)?(?![\w.])[\s,]*", re.ASCII)
 
 
 def read_limits(text: str) -> dict[str, float | str] | None:
