@@ -247,3 +247,59 @@ def test_what_nobody_understands_is_answered_before_its_turn() -> None:
         talk.session.say(text)
     talk.pump_until(lambda: len(talk.results()) == 3)
     assert [event.turn for event in talk.events if isinstance(event, Result)] == [3, 1, 2]
+
+
+def plan_of_last(talk: Talk) -> str:
+    return [event.plan_text for event in talk.events if isinstance(event, Interpreted)][-1]
+
+
+OFFERED = "zorblax turn left 90 and forward 50 cm"
+
+
+@pytest.mark.parametrize(
+    ("answer", "plan"),
+    [
+        ("yes, but 1 m", "turn left 90 deg\ndrive 1 m"),
+        ("yes, but turn right", "turn right 90 deg\ndrive 0.5 m"),
+        ("sure, and then back 20 cm", "turn left 90 deg\ndrive 0.5 m\ndrive 0.2 m back"),
+        ("好，一米", "turn left 90 deg\ndrive 1 m"),
+    ],
+)
+def test_a_yes_with_a_change_runs_the_plan_with_it(answer: str, plan: str) -> None:
+    talk = Talk()
+    assert talk.session.do(OFFERED).proposal is not None
+    assert talk.session.do(answer).outcome == "completed"
+    assert plan_of_last(talk) == plan
+
+
+@pytest.mark.parametrize(
+    ("answer", "plan"),
+    [
+        ("no, right", "turn right 90 deg\ndrive 0.5 m"),
+        ("without the turn", "drive 0.5 m"),
+        ("make it 20 cm", "turn left 90 deg\ndrive 0.2 m"),
+    ],
+)
+def test_a_change_without_a_yes_is_asked_about_with_the_whole_plan(answer: str, plan: str) -> None:
+    talk = Talk()
+    talk.session.do(OFFERED)
+    result = talk.session.do(answer)
+    assert result.path_m == 0.0
+    assert result.proposal is not None
+    assert result.proposal.plan_text == plan
+
+
+def test_an_order_of_its_own_is_no_change_of_what_was_offered() -> None:
+    talk = Talk()
+    talk.session.do(OFFERED)
+    talk.session.do("ok, 20 cm back")
+    assert plan_of_last(talk) == "drive 0.2 m back"
+
+
+def test_the_side_of_a_shape_that_was_offered_turns_all_of_it() -> None:
+    talk = Talk()
+    talk.session.do("draw a square")
+    talk.session.do("sides 60 cm")
+    result = talk.session.do("to the right")
+    assert result.proposal is not None
+    assert result.proposal.plan_text == "\n".join(["drive 0.6 m", "turn right 90 deg"] * 4)

@@ -9,7 +9,6 @@ from chatrobot.language.context import Context, Dialogue, Place, RobotState
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import TurnRecord
-from chatrobot.plan.text import parse_plan
 from tests.language.ideal_motion import Track, judge
 from tests.language.profiles import MECANUM
 
@@ -61,7 +60,8 @@ class Conversation:
             meant.default_speed_mps or self.dialogue.default_speed_mps,
             meant.default_rate_radps or self.dialogue.default_rate_radps,
             pending=text if meant.outcome == "unclear" and not meant.is_held else "",
-            held=parse_plan(meant.proposal.plan_text) if meant.is_held and meant.proposal else None,
+            held=meant.held_plan,
+            offered=meant.offered_plan,
         )
 
 

@@ -35,8 +35,8 @@ def pupils(shared: RunningClass) -> Iterator[RunningClass]:
 
 
 @pytest.fixture
-def browsing(browser: Browser, pupils: RunningClass) -> Iterator[Browser]:
-    """A browser whose pages are closed before the class hangs up, whatever became of the test."""
+def browsing(browser: Browser) -> Iterator[Browser]:
+    """A browser whose pages are closed, whatever became of the test; before `pupils` hangs up, if named after it."""
     yield browser
     for context in browser.contexts:
         context.close()

@@ -14,11 +14,10 @@ from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, Started
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance
-from chatrobot.language.consent import after_consent, read_consent
+from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.link.motion_link import Approval
-from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
@@ -97,7 +96,7 @@ class Proposals:
         if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
             return None
         yes, plan = read_consent(utterance.text), parse_plan(offered.proposal.plan_text)
-        changed = self._changed(plan, utterance.text) if yes is None else plan
+        changed = self._understanding.amended(plan, utterance.text) if yes is None else plan
         if changed is None:
             return None
         language = self._understanding.language
@@ -107,8 +106,3 @@ class Proposals:
         if lapse is not None:
             return Interpretation("refused", render_reason(lapse, language), language)
         return self._understanding.accept(changed)
-
-    def _changed(self, plan: Plan, text: str) -> Plan | None:
-        """The plan as a yes with a manner wants it (`sure, but slowly`); None for anything else."""
-        manner = after_consent(text)
-        return self._understanding.with_manner(plan, manner) if manner else None

@@ -21,7 +21,6 @@ from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
 from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.plan.steps import Plan, Step
-from chatrobot.plan.text import parse_plan
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
 
@@ -177,9 +176,9 @@ class Understanding:
         entry = self._dialogue.ledger.redoes()
         return entry if entry is not None and entry.programs and not entry.back else None
 
-    def with_manner(self, plan: Plan, said: str) -> Plan | None:
-        """Return the plan as fast or as slow as `said`; None where that says anything else."""
-        return self._interpreter.with_manner(plan, said, self._context(self._dialogue))
+    def amended(self, plan: Plan, said: str) -> Plan | None:
+        """Return the plan with what `said` changes of it; None where that says anything else."""
+        return self._interpreter.amended(plan, said, self._context(self._dialogue))
 
     def accept(self, plan: Plan) -> Interpretation:
         """Return the meaning of a plan as it is: there is nothing to understand."""
@@ -192,8 +191,7 @@ class Understanding:
 
     def say_because(self, code: str, text: str, why: Reason) -> str:
         """Return a phrase in the language of `text` that gives a reason."""
-        self.hear_language(text)
-        return say(self.language, code, text=text[:80], reason=render_reason(why, self.language))
+        return self.say(code, text, reason=render_reason(why, self.language_of(text)))
 
     def hear_language(self, text: str) -> None:
         """Answer in the language of `text`, where it has one."""
@@ -232,13 +230,13 @@ class Understanding:
                 self.places.add(meant.remember_place, self._state.pose)
         outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
         self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped"), told=meant.reply))
-        pending = text if meant.outcome == "unclear" else ""
-        held = parse_plan(meant.proposal.plan_text) if meant.is_held and meant.proposal is not None else None
-        self._dialogue = replace(self._dialogue, pending="" if held else pending, held=held)
+        pending = text if meant.outcome == "unclear" and not meant.is_held else ""
+        held, offered = meant.held_plan, meant.offered_plan
+        self._dialogue = replace(self._dialogue, pending=pending, held=held, offered=offered)
 
     def forget_held(self) -> None:
         """Let no plan wait for a `go` any more: a stop came."""
-        self._dialogue = replace(self._dialogue, held=None)
+        self._dialogue = replace(self._dialogue, held=None, offered=None)
 
     def note_finished(
         self,
@@ -290,7 +288,7 @@ class Understanding:
 
     def _note_end(self, record: TurnRecord, finished: Finished | None) -> None:
         """Enter a turn into the ledger; one that Motion has ended, as it was measured."""
-        self._dialogue = replace(self._dialogue, pending="", held=None)
+        self._dialogue = replace(self._dialogue, pending="", held=None, offered=None)
         if finished is None:
             self._record(record)
             return

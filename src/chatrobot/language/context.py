@@ -24,7 +24,7 @@ class Place:
 class Dialogue:
     """What was said before. `pending` is the text of the previous turn if that was asked back about.
 
-    `held` is the plan that the previous turn left waiting for a `go`.
+    `held` is the plan that the previous turn left waiting for a `go`; `offered` the one that it asked about.
     """
 
     turns: tuple[TurnRecord, ...] = ()
@@ -35,6 +35,7 @@ class Dialogue:
     start_pose: Pose = ORIGIN
     pending: str = ""
     held: Plan | None = None
+    offered: Plan | None = None
 
     @property
     def last_motion(self) -> TurnRecord | None:

@@ -1,6 +1,7 @@
 """A plan that waits for a `go`: what is said of it before changes it or asks about it, and never moves.
 
-The words are `data/<code>/held.toml`. What changes it is read back, and waits anew; what is not understood ends it.
+A plan that was asked about (“did you mean …?”) is changed alike. The words are `data/<code>/held.toml`. What changes a
+plan is read back, and waits anew; what is not understood ends it.
 """
 
 from __future__ import annotations
@@ -49,6 +50,36 @@ def changed(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> li
     Raises:
         Unclear: the plan has no such part, or several that could be meant.
     """
+    in_part = changed_in_part(plain, plan, reading, read_anew)
+    plain = plain.rpartition("? ")[2]
+    is_instead = form(reading.language, "held", "instead").search(plain) is not None
+    return in_part or (changed_by_motion(plain, plan, reading, read_anew) if is_instead else None)
+
+
+def changed_by_motion(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> list[Step] | None:
+    """The steps of the plan with a motion that a normalised text says instead; None where it says none.
+
+    Raises:
+        Unclear: the plan has no such part, or several that could be meant.
+    """
+    own = read_anew(plain)
+    return _in_place(own.plan.steps, [*plan.steps], plain, reading) if own.plan is not None else None
+
+
+def is_no_order(plain: str, reading: Reading) -> bool:
+    """Whether a normalised text names a part of a plan, or an amount or a way alone: both together are an order."""
+    if any(_said(name, plain, reading) for name in ("part", "sole", "each", "dropped", "only")):
+        return True
+    kinds = {atom.kind for atom in reading.atoms(plain) if atom.kind != "q" or atom.value in _SIZES}
+    return not ("q" in kinds and kinds & {"dir", "rot"}) and not kinds & {"verb", "shape", "place"}
+
+
+def changed_in_part(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> list[Step] | None:
+    """The steps of the plan with another amount, way or part; None where a normalised text is no such change.
+
+    Raises:
+        Unclear: the plan has no such part, or several that could be meant.
+    """
     if plain.rstrip().endswith("?"):
         return None
     plain = plain.rpartition("? ")[2]  # `class, is that too far? make it one`
@@ -76,12 +107,7 @@ def changed(plain: str, plan: Plan, reading: Reading, read_anew: ReadAnew) -> li
         if new is not None:
             return new
     found = _said("added", plain, reading)
-    if found is not None:
-        return [*steps, *_steps(read_anew(found["new"]))]
-    own = read_anew(plain) if form(reading.language, "held", "instead").search(plain) else None
-    return (
-        _in_place(own.plan.steps, steps, plain, reading) if own is not None and own.plan is not None else None
-    )
+    return [*steps, *_steps(read_anew(found["new"]))] if found is not None else None
 
 
 def _in_place(own: Sequence[Step], steps: list[Step], plain: str, reading: Reading) -> list[Step]:
@@ -209,7 +235,9 @@ def _of_one(plain: str, steps: list[Step], reading: Reading) -> list[Step] | Non
     """
     found = _said("bare", plain, reading)
     atoms = _affirmed(reading.atoms(found["new"] if found else plain))
-    if not atoms or any(atom.kind not in ("q", "dir", "rot", "pace") for atom in atoms):
+    if not atoms or any(
+        atom.kind not in ("q", "dir", "rot", "pace") or atom.value in _CHANGING for atom in atoms
+    ):
         return None
     if any(atom.kind == "pace" or atom.value in ("speed", "rate", "percent", "faster") for atom in atoms):
         paced = with_manner(Plan(tuple(steps)), plain, reading)
@@ -257,6 +285,9 @@ def _with_way(steps: list[Step], way: Atom) -> list[Step]:
         Unclear: several could be meant, or the way fits none.
     """
     at = [i for i, step in enumerate(steps) if _has_way(step, way.value)]
+    turns = {step for step in steps if isinstance(step, Turn)}
+    if len(turns) == 1 and len(at) > 2 and way.value in SIDES:  # a square: all of it goes round the other way
+        return [replace(s, left=way.value == "left") if isinstance(s, Turn) else s for s in steps]
     if len(at) != 1 or (len(steps) > 1 and way.value not in SIDES):
         raise Unclear("unclear_motion", way.text)
     step, out = steps[at[0]], list(steps)

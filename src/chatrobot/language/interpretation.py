@@ -12,6 +12,7 @@ from chatrobot.language.ledger import Walk
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.text import parse_plan
 
 LanguageCode = Literal["en", "zh", "de"]
 _CODES: Mapping[str, LanguageCode] = {code: code for code in get_args(LanguageCode)}
@@ -59,6 +60,20 @@ class Interpretation:
     def is_held(self) -> bool:
         """The plan that it proposes waits for a `go`, and was no guess; an answer in between leaves it waiting."""
         return self.proposal is not None and (self.code == "held" or self.outcome == "answered")
+
+    @property
+    def held_plan(self) -> Plan | None:
+        """The plan that waits for a `go`."""
+        return self._proposed_plan if self.is_held else None
+
+    @property
+    def offered_plan(self) -> Plan | None:
+        """The plan that is asked about."""
+        return None if self.is_held else self._proposed_plan
+
+    @property
+    def _proposed_plan(self) -> Plan | None:
+        return parse_plan(self.proposal.plan_text) if self.proposal is not None else None
 
     @property
     def is_about_turn_before(self) -> bool:

@@ -20,7 +20,6 @@ from chatrobot.language.acts import (
     without,
     without_requests,
 )
-from chatrobot.language.answers import with_manner
 from chatrobot.language.beside import (
     any_may_bear,
     are_asides,
@@ -29,18 +28,18 @@ from chatrobot.language.beside import (
 )
 from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
+from chatrobot.language.consent import after_consent
 from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import with_known_counts
 from chatrobot.language.glossed import in_known_words, read_glossed
-from chatrobot.language.held import answered, answered_late, changed, is_taken_back, may_be_change
 from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.islands import of_islands
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import with_tails_parted
-from chatrobot.language.likeliest import likeliest, offer, proposed
+from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.names import misspelt_place, names_in, naming_points, with_points
 from chatrobot.language.naming import read_naming, told_what_it_would_do
@@ -67,6 +66,7 @@ from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk,
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
+from chatrobot.language.waiting import amended, of_held, of_offered
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
@@ -105,7 +105,7 @@ class OfflineInterpreter:
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         said = with_told_apart(in_full(normalise(text), language), language)
         text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
-        meant = self._of_held(text, language, context) or self._meant(text, language, context)
+        meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language, meant.plan) if offers else ""
         if reason:
@@ -131,14 +131,17 @@ class OfflineInterpreter:
             asked = asked or (meant if meant is not None and meant.proposal is not None else None)
             return replace(asked or asked_back(problem, language), corrects=says_meant(text))
 
-    def with_manner(self, plan: Plan, said: str, context: Context) -> Plan | None:
-        """The plan as fast or as slow as `said`; None where that says anything else. Never raises."""
-        language, said = in_known_words(said, context)
-        try:
-            plain = rephrased(normalise(said), language)
-            return with_manner(plan, plain, Reading(language, context, self._profile))
-        except Unclear:
-            return None
+    def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:
+        """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises."""
+        language, change = in_known_words(after_consent(said) or "", context)
+
+        def meant(part: str, own: Context) -> Interpretation:
+            return self._meant(part, language, own)
+
+        with contextlib.suppress(Unclear):
+            plain = rephrased(normalise(change), language)
+            return amended(plain, plan, Reading(language, context, self._profile), meant)
+        return None
 
     def _remarked(self, text: str, reading: Reading) -> Interpretation | None:
         """What a remark on the turn before asks for, proposed: `oops`, `wrong way`."""
@@ -176,35 +179,17 @@ class OfflineInterpreter:
         meant = self._ordered(rest, language, context)
         return proposed(meant, language, code="held") or (meant if meant.define else None)
 
-    def _of_held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
-        """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood."""
-        held, reading = context.dialogue.held, Reading(language, context, self._profile)
-        if held is None and not context.dialogue.pending:
-            return None
-        plain = rephrased(normalise(text), language)
-        if held is None:
-            return answered_late(plain, reading)
-        if is_taken_back(plain, language):
-            return Interpretation("answered", say(language, "offer_declined"), language)
-        own = replace(context, dialogue=replace(context.dialogue, pending="", held=None))
-        try:
-            meant = answered(plain, held.steps, reading)
-            steps = (
-                changed(plain, held, reading, lambda part: self._interpreted(part, language, own))
-                if meant is None
-                else None
-            )
-        except Unclear as problem:
-            return asked_back(problem, language)
-        if steps is not None:
-            return proposed(planned(steps, language), language, code="held")
-        meant = meant or self._meant(text, language, own)
-        if meant.outcome == "answered":
-            return replace(meant, proposal=offer(held, language))
-        is_guess = meant.plan is not None and may_be_change(plain, language)
-        if is_guess or (meant.proposal is not None and not meant.is_held):  # it takes no place of what waits
-            return asked_back(Unclear("unknown_part", meant.unaccounted or text[:60]), language)
-        return meant
+    def _of_waiting(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
+        """What a text says of a plan that waits for a `go` or a yes; None where it says nothing of one."""
+
+        def meant(part: str, own: Context) -> Interpretation:
+            return self._meant(part, language, own)
+
+        def interpreted(part: str, own: Context) -> Interpretation:
+            return self._interpreted(part, language, own)
+
+        reading = Reading(language, context, self._profile)
+        return of_held(text, reading, meant, interpreted) or of_offered(text, reading, meant)
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.

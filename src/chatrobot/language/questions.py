@@ -125,7 +125,7 @@ def places_known(context: Context, language: str) -> str:
     """The person's own places, then those of the world, each once and by its name in that language."""
     names = context.place_names or tuple((name,) for name in context.world_places)
     known = dict.fromkeys((*context.dialogue.places, *(by_language(each, language)[0] for each in names)))
-    return say(language, "join").join(known) or "-"
+    return say(language, "join").join(known) or say(language, "no_place")
 
 
 def unknown_pose(context: Context) -> str:

@@ -86,22 +86,12 @@ class Obstacles:
             return None if name in self._added else self._unknown(name)
         if name not in self._added and len(self._added) >= MOST:
             return Reason("obstacles_too_many", {"limit": MOST})
-        if not self._is_near(shape):
+        bounds, (x_m, y_m) = self._planner.world.bounds, shape.outline()[0]
+        if bounds is not None and not bounds.holds(x_m, y_m, NEAR_M):  # a world of nothing has no end
             return Reason("obstacle_far", {"name": name, "most_m": NEAR_M})
         here = np.array([self._robot.pose])
         is_on_robot = _contact(name, shape, here, self._robot, margin_m=0.0) is not None
         return Reason("obstacle_on_robot", {"name": name}) if is_on_robot else None
-
-    def _is_near(self, shape: Shape) -> bool:
-        """Whether a corner of it is in the world or not far beside it. A world of nothing has no end."""
-        bounds = self._planner.world.bounds
-        if bounds is None:
-            return True
-        return any(
-            bounds.min_x_m - NEAR_M <= x_m <= bounds.max_x_m + NEAR_M
-            and bounds.min_y_m - NEAR_M <= y_m <= bounds.max_y_m + NEAR_M
-            for x_m, y_m in shape.outline()
-        )
 
     def _unknown(self, name: str) -> Reason:
         if not self._added:

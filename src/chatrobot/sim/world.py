@@ -44,6 +44,11 @@ class Bounds:
     max_x_m: float
     max_y_m: float
 
+    def holds(self, x_m: float, y_m: float, margin_m: float) -> bool:
+        """Return whether a point is in the box, or no further outside than that."""
+        is_in_x = self.min_x_m - margin_m <= x_m <= self.max_x_m + margin_m
+        return is_in_x and self.min_y_m - margin_m <= y_m <= self.max_y_m + margin_m
+
 
 @dataclass(frozen=True)
 class World:

@@ -1,0 +1,115 @@
+"""What a text says of a plan that waits: for a `go`, or for the yes to “did you mean …?”."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from chatrobot.language.answers import with_manner
+from chatrobot.language.consent import after_consent
+from chatrobot.language.context import Context
+from chatrobot.language.held import (
+    answered,
+    answered_late,
+    changed,
+    changed_by_motion,
+    changed_in_part,
+    is_no_order,
+    is_taken_back,
+    may_be_change,
+)
+from chatrobot.language.interpretation import Interpretation, asked_back, planned
+from chatrobot.language.likeliest import offer, proposed
+from chatrobot.language.normalise import normalise
+from chatrobot.language.phrases import say
+from chatrobot.language.reading import Reading
+from chatrobot.language.rephrase import rephrased
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Plan
+
+Read = Callable[[str, Context], Interpretation]
+
+
+def of_held(text: str, reading: Reading, meant: Read, interpreted: Read) -> Interpretation | None:
+    """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood.
+
+    Args:
+        meant: reads a text as the interpreter does.
+        interpreted: reads it as an order, and raises `Unclear` where it is none.
+    """
+    language, context = reading.language, reading.context
+    held = context.dialogue.held
+    if held is None and not context.dialogue.pending:
+        return None
+    plain = rephrased(normalise(text), language)
+    if held is None:
+        return answered_late(plain, reading)
+    if is_taken_back(plain, language):
+        return Interpretation("answered", say(language, "offer_declined"), language)
+    own = _without_waiting(context)
+    try:
+        told = answered(plain, held.steps, reading)
+        steps = changed(plain, held, reading, lambda part: interpreted(part, own)) if told is None else None
+    except Unclear as problem:
+        return asked_back(problem, language)
+    if steps is not None:
+        return proposed(planned(steps, language), language, code="held")
+    found = told or meant(text, own)
+    if found.outcome == "answered":
+        return replace(found, proposal=offer(held, language))
+    is_guess = found.plan is not None and may_be_change(plain, language)
+    if is_guess or (found.proposal is not None and not found.is_held):  # it takes no place of what waits
+        return asked_back(Unclear("unknown_part", found.unaccounted or text[:60]), language)
+    return found
+
+
+def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | None:
+    """The plan that was asked about, with what a text changes of it; None where it changes nothing.
+
+    It is done after a yes, and where the text that was asked about means the same with this one added; otherwise it
+    is asked about again.
+    """
+    language, context = reading.language, reading.context
+    offered, agreed = context.dialogue.offered, after_consent(text)
+    if offered is None:
+        return None
+    plain = rephrased(normalise(agreed or text), language)
+    is_part = is_no_order(plain, reading)
+    if agreed is None and not is_part:
+        return None
+    try:
+        found = amended(plain, offered, reading, meant, by_motion=agreed is not None)
+    except Unclear as problem:  # `ok, turn left 90` is an order of its own
+        return asked_back(problem, language) if agreed is not None and is_part else None
+    if found is None:
+        return None
+    joined = meant(text, context).plan if agreed is None else found
+    done = planned(list(found.steps), language)
+    return done if joined == found else proposed(done, language)
+
+
+def amended(plain: str, plan: Plan, reading: Reading, meant: Read, *, by_motion: bool = True) -> Plan | None:
+    """The plan with what a normalised text changes of it; None where it changes nothing.
+
+    Args:
+        by_motion: a whole motion takes the place of the one of its kind.
+
+    Raises:
+        Unclear: the plan has no such part, or several that could be meant.
+    """
+    own = _without_waiting(reading.context)
+
+    def read_anew(part: str) -> Interpretation:
+        return meant(part, own)
+
+    steps = changed_in_part(plain, plan, reading, read_anew)
+    paced = with_manner(plan, plain, reading) if steps is None else None
+    if paced is not None:
+        return paced
+    if steps is None and by_motion:
+        steps = changed_by_motion(plain, plan, reading, read_anew)
+    return Plan(tuple(steps)) if steps is not None else None
+
+
+def _without_waiting(context: Context) -> Context:
+    return replace(context, dialogue=replace(context.dialogue, pending="", held=None, offered=None))
