@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -65,8 +66,7 @@ def assert_near(pose: Pose, other: Pose, within_m: float = 0.03, within_deg: flo
     assert abs(math.degrees(off_rad)) < within_deg
 
 
-@pytest.mark.parametrize("plan_text", PLANS)
-@pytest.mark.parametrize("gently", [False, True])
+@pytest.mark.parametrize(("plan_text", "gently"), list(zip(PLANS, itertools.cycle([False, True]))))
 def test_the_executed_part_leads_where_it_stopped_and_the_remaining_part_to_the_end(
     plan_text: str, gently: bool
 ) -> None:

@@ -219,7 +219,7 @@ near = st.tuples(st.floats(0.0, math.tau), st.floats(-0.01, 0.05)).map(
 speeds = st.floats(-0.6, 0.6)
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=100)
 @given(st.lists(near, min_size=1, max_size=6), speeds, speeds, st.floats(-1.5, 1.5))
 @example([(FRONT_M + 0.02, 0.0)], -0.5, 0.0, 0.0)
 @example([(FRONT_M + 0.02, 0.1), (-FRONT_M - 0.02, -0.1)], 0.0, 0.0, 1.0)

@@ -111,9 +111,9 @@ def test_no_word_of_motion_moves_anything_in_a_frame_that_orders_nothing(languag
     written = [" ".join(key) for key, meaning in lexicon().words.items() if meaning[0][0] == "verb"]
     verbs = sorted(word for word in written if word.isascii() == (language == "en"))
     chance = random.Random(3)
-    said = [frame.replace("{v}", verb) for frame in frames for verb in chance.sample(verbs, 3)]
+    said = [frame.replace("{v}", verb) for frame in frames for verb in chance.sample(verbs, 2)]
     moved = [text for text in said if Conversation().say(text).plan is not None]
-    assert len(said) > 500
+    assert len(said) > 350
     assert len(moved) <= 0.01 * len(said), moved
 
 

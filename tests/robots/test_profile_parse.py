@@ -258,7 +258,7 @@ def is_safe(robot: RobotProfile) -> bool:
     )
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(data=st.data(), text=st.sampled_from(TEXTS), value=VALUES)
 def test_any_value_in_any_field_loads_or_is_a_profile_error(
     data: st.DataObject, text: str, value: Any
@@ -268,7 +268,7 @@ def test_any_value_in_any_field_loads_or_is_a_profile_error(
     loads_or_is_refused(document(put(parsed, path, value)))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(text=st.sampled_from(TEXTS), data=st.data(), junk=st.text(max_size=8))
 def test_any_text_anywhere_loads_or_is_a_profile_error(text: str, data: st.DataObject, junk: str) -> None:
     start = data.draw(st.integers(0, len(text)))

@@ -12,7 +12,7 @@ from scripts import fuzz
 
 from chatrobot.core.geometry import Twist
 
-SEQUENCES = 2_000
+SEQUENCES = 1_000
 CHUNKS = 2
 
 
