@@ -25,6 +25,9 @@ from tests.language.dialogue_runner import Conversation, conversation
 
 FRAMES = Path(__file__).parents[1] / "corpus" / "frames"
 TALK = [
+    "actually I wanted to have you go forward two metres but there's a bike there", "前进一米？算了，本来想让你走的",
+    "I'd have sent you forward 1 m, but someone is standing there", "本来想让你往前走两米，可是前面有人",
+    "eigentlich wollte ich dich zwei Meter vorfahren lassen, aber da steht ein Rad",
     "you are right", "what if you drive forward?", "is the kitchen on the left?", "that was a nice square",
     "be right back", "way to go!!", "my car drives 3 m", "haha you drive like my grandma", "wow, it turned left",
     "were you going to turn left just now?", "why did you go forward?", "tomorrow we drive a square",

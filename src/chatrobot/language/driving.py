@@ -46,7 +46,8 @@ def _way(frame: Frame, state: State) -> str:
         raise Unclear("which_side", frame.text)
     if not direction:
         if (frame.verb in GO and frame.verb != "shift") or "more" in frame.flags or not frame.verb:
-            direction = state.direction if state.last == "drive" and not frame.verb else "forward"
+            goes_on = state.last == "drive" and (not frame.verb or "more" in frame.flags)
+            direction = state.direction if goes_on else "forward"
         elif frame.has_extent and frame.verb:
             direction = "forward"
     if not direction:
