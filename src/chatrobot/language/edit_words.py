@@ -35,6 +35,7 @@ _KINDS: dict[str, type[Step]] = {
     **dict.fromkeys(TURN, Turn),
     "curve": Arc,
     "wait": Wait,
+    "halt": Wait,
 }
 SCALES, _SIZES = ("scale", "fold"), ("length", "angle", "turns", "time", "speed", "rate")
 

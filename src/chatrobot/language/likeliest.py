@@ -7,6 +7,7 @@ Where the rules stumble on anything else, the clause it stands in is left out, o
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -37,7 +38,7 @@ from chatrobot.language.signs import Names, Sign, clauses_of
 from chatrobot.language.strange_words import is_bound, is_complete, strange_spans
 from chatrobot.language.typos import neighbours_of
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Plan, Turn
 from chatrobot.plan.text import format_plan
 
 TALK, APART = 1.5, 3.0
@@ -258,14 +259,22 @@ def _with_unit(
         len(at) != 1 or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at ")
     ):  # `back at 20`: how fast
         return None
-    moving = (sign for clause in clauses_of(plain) for sign in clause.signs if sign.moves)
-    if unit in ("", "m") or (unit == _DEG and any(sign.label not in _ALONE for sign in moving)):
+    clauses = [clause for clause in clauses_of(plain) if clause.moves]
+    if unit in ("", "m") or (
+        unit == _DEG and any(s.label not in _ALONE for c in clauses for s in c.signs if s.moves)
+    ):
         unit = "m" if float(number) <= FAR_M else "cm"
     end = at[0] + len(number)
-    try:
-        return proposed(read(f"{plain[:end]} {unit}{plain[end:]}"), language)
-    except Unclear:
-        return None
+    beside = next((one.signs for one in clauses if end <= one.stop), ())
+    is_bare = len(clauses) > 1 and not any(sign.label == "VERB" for sign in beside)
+    is_angle = is_bare and unit == "cm" and float(number) % 15 == 0  # `go 1 m, 90 right, go 1 m`
+    for each in (_DEG, unit) if is_angle else (unit,):
+        with contextlib.suppress(Unclear):
+            meant = read(f"{plain[:end]} {each}{plain[end:]}")
+            steps = meant.plan.steps if meant.plan is not None else ()
+            if not is_angle or each == unit or any(isinstance(step, Turn) for step in steps):
+                return proposed(meant, language)
+    return None
 
 
 def _is_sure_talk(read: Read, best: float) -> bool:
