@@ -261,13 +261,13 @@ def test_two_pupils_links_in_one_browser_stay_each_with_their_own_robot(
 def test_a_revoked_link_ends_its_page_and_its_motion_and_another_is_given(
     pupils: RunningClass, browsing: Browser
 ) -> None:
-    drive(
-        pupils, 0, 1
-    )  # not from the browser: a busy machine holds its beats up, and the robot stops for that
     old = pupils.pupils_tokens()[0]
     pupil = open_page(browsing, f"{pupils.origin}/#{old}")
     teacher = browsing.new_page(locale="en-GB")
     teacher.goto(f"{pupils.origin}/teacher#{pupils.token}")
+    expect(teacher.get_by_role("button", name="New link: Pupil 1")).to_be_visible()
+    # Not from the browser, and once both pages stand: what a busy machine holds up stops the robot for that.
+    drive(pupils, 0, 1)
     teacher.get_by_role("button", name="New link: Pupil 1").click()
     said_s = time.monotonic()
     teacher.get_by_role("button", name="End the old link?: Pupil 1").click()
