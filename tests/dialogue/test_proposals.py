@@ -289,11 +289,19 @@ def test_a_change_without_a_yes_is_asked_about_with_the_whole_plan(answer: str, 
     assert result.proposal.plan_text == plan
 
 
-def test_an_order_of_its_own_is_no_change_of_what_was_offered() -> None:
+@pytest.mark.parametrize(
+    ("order", "plan"),
+    [
+        ("ok, 20 cm back", "drive 0.2 m back"),
+        ("ok, turn right", "turn right 90 deg"),
+        ("ok, slide left 20 cm", "drive 0.2 m left"),
+    ],
+)
+def test_an_order_of_its_own_is_no_change_of_what_was_offered(order: str, plan: str) -> None:
     talk = Talk()
     talk.session.do(OFFERED)
-    talk.session.do("ok, 20 cm back")
-    assert plan_of_last(talk) == "drive 0.2 m back"
+    talk.session.do(order)
+    assert plan_of_last(talk) == plan
 
 
 def test_the_side_of_a_shape_that_was_offered_turns_all_of_it() -> None:

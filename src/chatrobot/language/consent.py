@@ -31,6 +31,11 @@ def after_consent(text: str) -> str | None:
     return found["rest"] if found and not said.endswith(("?", "？", "吗")) else None
 
 
+def opens_with_but(said: str) -> bool:
+    """Whether what is said after a yes changes what is agreed to: `but turn right`."""
+    return re.match(f"{_GAP}{_any_of('but')}", said.strip().casefold()) is not None
+
+
 def _consists_of(answer: str, text: str) -> bool:
     return _pattern(answer).fullmatch(text.strip().casefold().translate(_APOSTROPHE)) is not None
 

@@ -38,6 +38,8 @@ _CHANGING = frozenset(
     {"other_way", "mirrored", "reverse", "swapped", "leave_out", "scale", "fold", "percent"}
 )
 """Words that change a motion and are none of their own."""
+_NAMING = ("part", "sole", "each", "dropped", "only")
+"""Forms of `held.toml` that name a part of the plan."""
 ReadAnew = Callable[[str], Interpretation]
 
 
@@ -66,9 +68,14 @@ def changed_by_motion(plain: str, plan: Plan, reading: Reading, read_anew: ReadA
     return _in_place(own.plan.steps, [*plan.steps], plain, reading) if own.plan is not None else None
 
 
+def adds(plain: str, reading: Reading) -> bool:
+    """Whether a normalised text says what comes after a plan: `and then back 20 cm`."""
+    return _said("added", plain, reading) is not None
+
+
 def is_no_order(plain: str, reading: Reading) -> bool:
     """Whether a normalised text names a part of a plan, or an amount or a way alone: both together are an order."""
-    if any(_said(name, plain, reading) for name in ("part", "sole", "each", "dropped", "only")):
+    if any(_said(name, plain, reading) for name in _NAMING):
         return True
     kinds = {atom.kind for atom in reading.atoms(plain) if atom.kind != "q" or atom.value in _SIZES}
     return not ("q" in kinds and kinds & {"dir", "rot"}) and not kinds & {"verb", "shape", "place"}

@@ -133,14 +133,16 @@ class OfflineInterpreter:
 
     def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:
         """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises."""
-        language, change = in_known_words(after_consent(said) or "", context)
+        change = after_consent(said)
+        if change is None:
+            return None
+        language, change = in_known_words(change, context)
 
         def meant(part: str, own: Context) -> Interpretation:
             return self._meant(part, language, own)
 
         with contextlib.suppress(Unclear):
-            plain = rephrased(normalise(change), language)
-            return amended(plain, plan, Reading(language, context, self._profile), meant)
+            return amended(change, plan, Reading(language, context, self._profile), meant)
         return None
 
     def _remarked(self, text: str, reading: Reading) -> Interpretation | None:

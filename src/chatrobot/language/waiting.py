@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from chatrobot.language.answers import with_manner
-from chatrobot.language.consent import after_consent
+from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
 from chatrobot.language.held import (
+    adds,
     answered,
     answered_late,
     changed,
@@ -73,14 +74,10 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
     offered, agreed = context.dialogue.offered, after_consent(text)
     if offered is None:
         return None
-    plain = rephrased(normalise(agreed or text), language)
-    is_part = is_no_order(plain, reading)
-    if agreed is None and not is_part:
-        return None
     try:
-        found = amended(plain, offered, reading, meant, by_motion=agreed is not None)
-    except Unclear as problem:  # `ok, turn left 90` is an order of its own
-        return asked_back(problem, language) if agreed is not None and is_part else None
+        found = amended(agreed or text, offered, reading, meant, is_agreed=agreed is not None)
+    except Unclear as problem:
+        return asked_back(problem, language) if agreed is not None else None
     if found is None:
         return None
     joined = meant(text, context).plan if agreed is None else found
@@ -88,15 +85,20 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
     return done if joined == found else proposed(done, language)
 
 
-def amended(plain: str, plan: Plan, reading: Reading, meant: Read, *, by_motion: bool = True) -> Plan | None:
-    """The plan with what a normalised text changes of it; None where it changes nothing.
+def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: bool = True) -> Plan | None:
+    """The plan with what is `said` of it; None where that changes nothing of it, or is an order of its own.
 
     Args:
-        by_motion: a whole motion takes the place of the one of its kind.
+        is_agreed: a yes goes before; then a `but` may change it by a motion, and an `and then` goes on from it.
+            Without one of them `ok, turn right` is an order of its own.
 
     Raises:
         Unclear: the plan has no such part, or several that could be meant.
     """
+    plain = rephrased(normalise(said), reading.language)
+    by_motion = is_agreed and opens_with_but(said)
+    if not (is_no_order(plain, reading) or by_motion or (is_agreed and adds(plain, reading))):
+        return None
     own = _without_waiting(reading.context)
 
     def read_anew(part: str) -> Interpretation:
