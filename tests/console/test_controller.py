@@ -32,6 +32,14 @@ def test_two_interrupts_at_once_leave_and_two_far_apart_stop_twice(controller, l
     assert told(log)[-1] == ("leave", 0)
 
 
+def test_an_interrupt_after_a_new_order_stops_it_and_does_not_leave(controller, log):
+    controller.interrupt()
+    controller.enter("forward 2 m")
+    controller.interrupt()
+    assert ("leave", 0) not in log
+    assert told(log).count(("stop", "Ctrl-C")) == 2
+
+
 def test_leaving_waits_for_what_was_told(controller, log):
     controller.session.is_idle = False
     controller.leave()

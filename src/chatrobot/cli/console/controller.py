@@ -95,6 +95,8 @@ class ChatController:
         self._said_stopped = False
         cleaned = clean(raw)
         texts = texts_in(cleaned)
+        if texts:
+            self._interrupted_s = float("-inf")  # what is said stands between two interrupts
         if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
             self.stop_for_paste(cleaned)
             self.tell("line_too_long", limit=LONGEST_CHARS)
@@ -173,7 +175,7 @@ class ChatController:
         self._tell_undone(undone)
 
     def interrupt(self) -> None:
-        """Ctrl-C: stop the robot; the second one leaves."""
+        """Ctrl-C: stop the robot; the second one in a row leaves."""
         self.stop("Ctrl-C")
         now_s = self._clock.now_s()
         if now_s - self._interrupted_s <= TWICE_S:
