@@ -45,7 +45,7 @@ REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark
 # Python 3.11 cannot parse a source for pytest's own tracebacks where a browser is driven, and then no test goes on.
 PLAIN := --tb=native
 test: lint
-	$(BIN)/pytest -m "not realtime" -n 3
+	$(BIN)/pytest -m "not realtime" -n 2
 	$(BIN)/pytest -m "realtime and not alone" -n 2 --dist loadfile $(PLAIN) $(REALTIME) || \
 		$(BIN)/pytest -m "realtime and not alone" $(AGAIN) $(PLAIN) $(REALTIME)
 	$(BIN)/pytest -m alone $(PLAIN) $(REALTIME) || $(BIN)/pytest -m alone $(AGAIN) $(PLAIN) $(REALTIME)

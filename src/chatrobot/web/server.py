@@ -145,8 +145,10 @@ class WebServer:
         for room in self.rooms.values():
             room.end(stops=stops)
         time.sleep(0.05)  # the pages are told
-        for thread in reversed(self._threads):
-            thread.stop()
+        for thread in self._threads:
+            thread.ask_to_end()
+        for thread in self._threads:
+            thread.join()
         self._watchdog.stop()
 
     def find_room(self, pass_: Pass, scope: Scope) -> Room | None:
@@ -333,9 +335,12 @@ class _ServerThread:
                 raise ChatRobotError(f"the server of the {self._thread.name} does not start")
             time.sleep(0.005)
 
-    def stop(self) -> None:
-        """End it, and wait for that."""
+    def ask_to_end(self) -> None:
+        """Have it end, which takes it a moment."""
         self._server.should_exit = True
+
+    def join(self) -> None:
+        """Wait until it has ended."""
         self._thread.join(_END_S)
 
     def _run(self) -> None:
