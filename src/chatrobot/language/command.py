@@ -17,6 +17,7 @@ from chatrobot.language.interpretation import Interpretation, planned, stopped
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
+from chatrobot.language.part_changed import part_changed
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
@@ -137,7 +138,7 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     """
     dialogue, language = reading.context.dialogue, reading.language
     check_spoken_of(plain, language, dialogue)
-    part = part_of_before(plain, language, dialogue, reading.atoms)
+    part = part_of_before(plain, language, dialogue, reading.atoms) or part_changed(plain, reading)
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts
+from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts, without
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount
 from chatrobot.language.command import read_command
 from chatrobot.language.facts import defined_unit
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.names import names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.reading import Reading
-from chatrobot.language.rephrase import rephrased
+from chatrobot.language.rephrase import rephrased, with_breaks
 from chatrobot.language.selections import same_speed
+from chatrobot.language.set_off import set_off
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
 from chatrobot.language.unclear import Unclear
@@ -32,6 +34,7 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         return None
     if changes_nothing_said(normalise(pending), reading):
         return None  # it was to change a plan, and did not: nothing is to stay of it
+    pending = _without_talk(pending, reading)
     before = rephrased(normalise(pending), reading.language)
     if _forbids(before, reading):
         return None  # `don't turn left`: what is ordered instead has nothing of it
@@ -55,6 +58,13 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
+
+
+def _without_talk(pending: str, reading: Reading) -> str:
+    """What was asked back about, without what is set off from the order: `slide 2 feet, so I can get by`."""
+    plain, names = with_breaks(normalise(pending), reading.language), names_in(reading.context)
+    reads = read_acts(plain, names)
+    return without(plain, reads, set_off(plain, reads, reading.language, names)) or pending
 
 
 def _forbids(before: str, reading: Reading) -> bool:

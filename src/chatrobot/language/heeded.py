@@ -37,6 +37,7 @@ _TAKEN_BACK = frozenset({"correction", "condition", "negation"})
 """Words after which what was said before may rightly count for nothing."""
 
 _DOINGS = frozenset({"uturn", "return", "face", "wait"})
+_ABOUT = frozenset({"uturn", "face"})
 """Verbs that do something by themselves, and are no manner of doing something else."""
 _RETURNING = frozenset({"undo", "trip"})
 """What has a return in it already."""
@@ -110,8 +111,9 @@ def _check_clauses(
         others = [a for i, a in enumerate(atoms) if not before < i < end and a.kind not in SILENT]
         if not doing or not others or any(_changed(a, atoms) for a in atoms[before + 1 : end]):
             continue
+        doing |= _ABOUT if doing & _ABOUT else set()
         if any((a.kind == "verb" and a.value in doing) or a.value in _RETURNING for a in others):
-            continue  # said again: `wait, wait 2 s`
+            continue  # said again: `wait, wait 2 s`, `turn around, facing the other way`
         try:
             other = read([*atoms[: before + 1], *atoms[end:]])
         except Unclear:

@@ -20,9 +20,9 @@ from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.interpretation import Interpretation, asked_back
 from chatrobot.language.inverse import is_sideways
 from chatrobot.language.last_motion import in_unit_before, said_unit_m
-from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.normalise import normalise
+from chatrobot.language.part_changed import as_if_done
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.rules import form, forms
@@ -320,10 +320,10 @@ def _of_last(plain: str, steps: list[Step], reading: Reading) -> list[Step] | No
     atoms = reading.atoms(plain)
     if not any(atom.value in _CHANGING for atom in atoms if atom.kind in ("flag", "q", "order")):
         return None
-    dialogue, pose = reading.context.dialogue, reading.context.state.pose
-    said = next((turn.text for turn in reversed(dialogue.turns) if turn.outcome == "unclear"), "")
-    done = TurnRecord(said, "completed", Plan(tuple(steps)), pose, pose)
-    context = replace(reading.context, dialogue=replace(dialogue, turns=(*dialogue.turns, done), pending=""))
+    said = next(
+        (turn.text for turn in reversed(reading.context.dialogue.turns) if turn.outcome == "unclear"), ""
+    )
+    context = as_if_done(steps, said, reading.context)
     hypothetical = replace(reading, context=context)
     return of_before(plain, atoms, hypothetical) or refer(frames_of(atoms), context, reading.pace)
 

@@ -207,17 +207,21 @@ class OfflineInterpreter:
         reads = read_acts(plain, names)
         apart = set_off(plain, reads, language, names)
         talk = [read for read in reads if read in (*apart, *talk_in(reads))]
-        rest = without(plain, reads, talk)
+        rest, missing = without(plain, reads, talk), None
         if rest:
-            with contextlib.suppress(Unclear):
+            try:
                 meant = self._interpreted(rest, language, context)
                 # What a request for a program tells in full is its own reader's.
                 bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 bears = bears and not read_program_request(rest)
                 return (proposed(meant, language) or meant) if bears else meant
+            except Unclear as problem:
+                missing = problem if problem.code in _OF_AN_ORDER and apart else None
         try:
             meant = self._interpreted(text, language, context)
         except Unclear as problem:
+            if problem.refused and missing is not None:
+                raise missing from None  # `slide over 2 feet, so I can get this ladder by`: to which side?
             asked = "" if problem.refused else without_requests(rest or plain, names)
             if asked:
                 with contextlib.suppress(Unclear):

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts
 from chatrobot.language.clauses import read_frames
+from chatrobot.language.data_files import relation_words
 from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned
@@ -41,7 +42,18 @@ _IDLE = frozenset({"until", "more", "total", "first", "all", "bit", "closer"})
 """Flags that an amount behind them makes idle: `until you've covered 2 m`."""
 _PASSABLE = frozenset({"there", "in_place", "no_turn"})
 _ENDS = frozenset(
-    {"condition", "negation", "correction", "doubt", "refuse", "operator", "place", "defined", "order"}
+    {
+        "condition",
+        "negation",
+        "correction",
+        "doubt",
+        "refuse",
+        "operator",
+        "place",
+        "defined",
+        "order",
+        "compass",
+    }
 )
 _BOUND = frozenset({"not", "condition", "later", "hypothetical"})
 _TOLD = frozenset({"earlier", "did", "past", "sees"})
@@ -73,15 +85,16 @@ def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], lis
     try:
         for read in read_acts(rewritten, names):
             said = rewritten[read.clause.start : read.clause.stop]
-            clause = _atoms_of(said, reading)
+            clause = _atoms_of(said, reading, follows=bool(atoms))
             kept = _kept(clause, read)
             if kept is None:
                 _check_passable(clause, read, follows=bool(atoms))
                 over.append(said.strip(_MARKS))
             else:
-                if may_be_needed(read.clause, names):
+                unknown = [atom.text for atom in clause if atom.kind == "unknown"]
+                if may_be_needed(read.clause, names) or set(unknown) & set(relation_words("words")):
                     return [], []
-                over += [atom.text for atom in clause if atom.kind == "unknown"]
+                over += unknown
                 is_end = read.clause.end in tuple(".!?;\n")
                 atoms += [*kept, Atom("sep", "strong" if is_end else "weak", read.clause.end)]
         return _steps(atoms, reading), over
@@ -89,10 +102,10 @@ def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], lis
         return [], []
 
 
-def _atoms_of(clause: str, reading: Reading) -> list[Atom]:
-    """The atoms of a clause. Where nothing was done before, `one more try` refers to nothing."""
+def _atoms_of(clause: str, reading: Reading, *, follows: bool) -> list[Atom]:
+    """The atoms of a clause. Where nothing was done or said before, `one more try` refers to nothing."""
     atoms = reading.atoms(clause)
-    if reading.context.dialogue.last_motion is not None or any(map(_counts, atoms)):
+    if follows or reading.context.dialogue.last_motion is not None or any(map(_counts, atoms)):
         return atoms
     return [atom for atom in atoms if (atom.kind, atom.value) != ("flag", "again")]
 
@@ -124,6 +137,8 @@ def _kept(atoms: Sequence[Atom], read: Read) -> list[Atom] | None:
         Unclear: where something in it bears on that, and nobody knows how.
     """
     ways = any(atom.kind in _WAYS and atom.value not in ("halt", "make") for atom in atoms)
+    if not ways and "verdict" in _labels(read) and read.log_odds < TALK_ODDS:
+        return None  # `the wall is a metre off`
     if not any(_is_size(atom) for atom in atoms) and not (_bare_numbers(atoms) and ways):
         bare = all(atom.kind in (*_SLOTS, *SILENT) for atom in atoms)
         slots = [atom for atom in atoms if atom.kind in _SLOTS or atom.kind == "conn"]
@@ -141,7 +156,7 @@ def _kept(atoms: Sequence[Atom], read: Read) -> list[Atom] | None:
 
 
 def _counts(atom: Atom) -> bool:
-    return atom.kind == "q" and atom.value in ("times", "count")
+    return atom.kind == "q" and atom.value in ("times", "count", "scale", "fold", "percent")
 
 
 def _is_size(atom: Atom) -> bool:

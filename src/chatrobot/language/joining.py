@@ -20,6 +20,13 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
         return None
     if joined == "then" or {"between", "halfway", "at_point", "after_each", "all"} & first.flags:
         return None
+    if (
+        "radius" in last.q
+        and "length" in first.q
+        and first.direction in ("forward", "back")
+        and not first.rot
+    ):
+        return None  # `arc left 90, radius 1 m, forward 50 cm`: on, straight
     if "again" in first.flags or is_times_only(first) or is_times_only(last):
         return None
     again = "again" in last.flags and not last.has_extent and (first.moves or first.flags != {"same_amount"})

@@ -255,19 +255,19 @@ def _with_unit(
 ) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far; a number alone in the unit used before."""
     at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
-    if (
-        len(at) != 1 or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at ")
-    ):  # `back at 20`: how fast
-        return None
+    if len(at) != 1 or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at "):
+        return None  # `back at 20`: how fast
     clauses = [clause for clause in clauses_of(plain) if clause.moves]
-    if unit in ("", "m") or (
-        unit == _DEG and any(s.label not in _ALONE for c in clauses for s in c.signs if s.moves)
-    ):
+    said = {sign.label for clause in clauses for sign in clause.signs if sign.moves}
+    after_turn = unit == _DEG and said <= _ALONE | {"DIR", "ROT"}  # `no, right 45`
+    if unit in ("", "m") or (unit == _DEG and not said <= _ALONE):
         unit = "m" if float(number) <= FAR_M else "cm"
     end = at[0] + len(number)
     beside = next((one.signs for one in clauses if end <= one.stop), ())
     is_bare = len(clauses) > 1 and not any(sign.label == "VERB" for sign in beside)
-    is_angle = is_bare and unit == "cm" and float(number) % 15 == 0  # `go 1 m, 90 right, go 1 m`
+    is_angle = after_turn or (
+        is_bare and unit == "cm" and float(number) % 15 == 0
+    )  # `go 1 m, 90 right, go 1 m`
     for each in (_DEG, unit) if is_angle else (unit,):
         with contextlib.suppress(Unclear):
             meant = read(f"{plain[:end]} {each}{plain[end:]}")

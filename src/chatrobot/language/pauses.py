@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 from functools import cache
@@ -74,9 +75,14 @@ def insert(script: Script, frame: Frame, *, counted: bool = False) -> None:
     if len(moving) == len(script.units) == 1 and in_the_middle and "after_each" not in frame.flags:
         insert_halfway(script, frame)  # 前进两米，中间停三秒
         return
+    pause = all(isinstance(s, (Wait, Say)) for s in steps)
+    sides = _sides(moving[0]) if len(moving) == len(script.units) == 1 and pause else []
+    if sides:
+        rests = len(sides) - ("after_each" not in frame.flags)
+        script.units = [[*side[:1], *(steps if k < rests else ()), *side[1:]] for k, side in enumerate(sides)]
+        return
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
-    pause = all(isinstance(s, (Wait, Say)) for s in steps)
     if "between" in frame.flags and (
         _PASSES & {text[:2] for text in frame.texts} or _parts_passes(frame, counted)
     ):
@@ -87,6 +93,14 @@ def insert(script: Script, frame: Frame, *, counted: bool = False) -> None:
         if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _sides(shape: list[Step]) -> list[list[Step]]:
+    """The sides of a drawn shape, each with the turn behind it; none where it is no shape of three sides at least."""
+    starts = [i for i, step in enumerate(shape) if isinstance(step, Drive)]
+    if len(starts) < 3 or starts[0] != 0:
+        return []
+    return [shape[start:end] for start, end in itertools.pairwise((*starts, len(shape)))]
 
 
 def _parts_passes(frame: Frame, counted: bool) -> bool:

@@ -140,6 +140,8 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         return say(language, unknown_pose(context))
     if topic in ("why", "done", "done_before", "understood"):
         return _told_of(topic, language, context.dialogue)
+    if topic == "last" and not context.dialogue.turns:
+        return say(language, "answer_nothing_done")
     values = _values(language, context, profile)
     known = {"battery": "percent", "obstacle": "distance_m", "duration": "duration_s", "sight": "range_m"}
     if topic in known and known[topic] not in values:
@@ -180,7 +182,7 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
         "default_speed_mps": context.dialogue.default_speed_mps or profile.defaults.speed_mps,
         "title": profile.title,
         "places": places_known(context, language),
-        "last": context.dialogue.turns[-1].text if context.dialogue.turns else "-",
+        "last": context.dialogue.turns[-1].text if context.dialogue.turns else None,
         "percent": state.battery_percent,
         "distance_m": state.obstacle_m,
         "duration_s": last.duration_s if last is not None else None,

@@ -58,7 +58,8 @@ def without_told_before(frames: Sequence[Frame]) -> list[Frame]:
     return [
         frame
         for before, frame in zip([None, *kept], kept)
-        if before is None or not (_points_at(before, frame) or _is_its_sense(before, frame))
+        if before is None
+        or not (_points_at(before, frame) or _is_its_sense(before, frame) or _is_its_end(before, frame))
     ]
 
 
@@ -82,6 +83,17 @@ def _is_its_sense(before: Frame, frame: Frame) -> bool:
     if way in _SENSES and way != frame.rot:
         raise Unclear("contradiction", f"{before.text}, {frame.text}")
     return way == frame.rot
+
+
+def _is_its_end(before: Frame, frame: Frame) -> bool:
+    """`Turn 180 so you face backwards`, 掉头，面朝后面: how it stands after the half turn before, and no more."""
+    said = next((before.q[name].number for name in ("angle", "turns", "number") if name in before.q), 0.0)
+    half = any(math.isclose(said, each) for each in (math.pi, 180.0)) and "length" not in before.q
+    is_half = half if said else before.turning
+    looks_back = frame == Frame(
+        verb="face", direction="back", texts=frame.texts, joined=frame.joined, opens=frame.opens
+    )
+    return looks_back and is_half and frame.joined != "then"
 
 
 def _is_lone(frame: Frame) -> bool:

@@ -17,7 +17,7 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
-from chatrobot.language.last_motion import laps
+from chatrobot.language.last_motion import laps, motion_meant
 from chatrobot.language.measures import whole_number
 from chatrobot.language.rules import Form, forms_of
 from chatrobot.language.tokens import SILENT, Atom
@@ -48,9 +48,7 @@ def selected(
     Raises:
         Unclear: there is no such part.
     """
-    if dialogue.last_motion is None:
-        return None
-    found = next(filter(None, (form.search(plain) for form in _forms(language))), None)
+    found = pointed_at(plain, language) if dialogue.last_motion is not None else None
     if found is None:
         return None
     around = *atoms_of(plain[: found.start()]), *(after := atoms_of(plain[found.end() :]))
@@ -58,24 +56,38 @@ def selected(
     silent = sum(a.kind in SILENT for a in around) + len(counts) == len(around)
     if not silent or len(counts) > 1 or any(a.kind == "conn" for a in after):
         return None
+    times = whole_number(counts[0].number, counts[0].text) if counts else 1
+    return chosen(found, plain, language, dialogue) * times or None
+
+
+def pointed_at(plain: str, language: str) -> re.Match[str] | None:
+    """Where a normalised text points at a part of what was done, and wants it again."""
+    return next(filter(None, (form.search(plain) for form in _forms(language))), None)
+
+
+def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) -> list[Step]:
+    """The steps that a match of `pointed_at` means; none where that is the whole of the last motion.
+
+    Raises:
+        Unclear: there is no such part.
+    """
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = next((kind for kind, words in table["kinds"].items() if said.get("kind", "") in words), "step")
     units = _units(dialogue, kind)
     at, count = _number(said, "nth", table), _number(said, "count", table) or 1
     if (kind == "move" or not said.get("kind")) and (at, count) == (-1, 1):
-        return None  # `the last move` is the whole of the last motion
+        return []  # `the last move` is the whole of the last motion
     if at:
         first = at - 1 if at > 0 else len(units) + at - (count - 1 if at == -1 else 0)
-        chosen = units[first : first + count] if 0 <= first <= len(units) - count else []
+        parts = units[first : first + count] if 0 <= first <= len(units) - count else []
     else:
         every = said.get("all") or (
             not said.get("count") and said.get("kind", "") in table.get("plurals", {})
         )
-        chosen = units if every or len(units) == count else []
-    if not chosen:
+        parts = units if every or len(units) == count else []
+    if not parts:
         raise Unclear("nothing_before", plain)
-    times = whole_number(counts[0].number, counts[0].text) if counts else 1
-    return [step for unit in chosen for step in unit] * times
+    return [step for unit in parts for step in unit]
 
 
 def part_of_before(
@@ -107,9 +119,9 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
     Raises:
         Unclear: there is no such part, there are several, or nothing would be left.
     """
-    last = dialogue.last_motion
     forms = [form for name in _WITHOUT for form in _forms(language, name)]
     found = next(filter(None, (form.fullmatch(plain) for form in forms)), None)
+    last = motion_meant(dialogue) if found is not None else None
     if last is None or last.plan is None or found is None:
         return None
     table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
@@ -133,8 +145,8 @@ def with_part_resized(
     Raises:
         Unclear: there is no such part, or it takes no such size.
     """
-    last = dialogue.last_motion
     found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    last = motion_meant(dialogue) if found is not None else None
     if last is None or last.plan is None or found is None:
         return None
     atoms = [atom for atom in atoms_of(found["size"]) if atom.kind not in SILENT]

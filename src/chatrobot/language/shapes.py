@@ -86,6 +86,9 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         "remember",
     ):
         return False
+    goes_on = frame.direction in ("forward", "back") and set(frame.q) == {"length"} and not frame.roles
+    if goes_on and head.shape in ("quarter_circle", "half_circle", "circle"):
+        return False  # `a quarter circle of 1 m radius, 50 cm straight`
     is_straight = head.shape.startswith(_STRAIGHT)
     if frame.shape and (is_straight or frame.shape not in ("half_circle", "quarter_circle", "circle")):
         return False

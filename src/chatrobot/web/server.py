@@ -146,9 +146,9 @@ class WebServer:
             room.end(stops=stops)
         time.sleep(0.05)  # the pages are told
         for thread in self._threads:
-            thread.ask_to_end()
-        for thread in self._threads:
-            thread.join()
+            thread.server.should_exit = True  # each takes a moment to see it
+        for thread in reversed(self._threads):
+            thread.stop()
         self._watchdog.stop()
 
     def find_room(self, pass_: Pass, scope: Scope) -> Room | None:
@@ -317,7 +317,7 @@ class _ServerThread:
             ssl_certfile=certfile,
             ssl_keyfile=keyfile,
         )
-        self._server = uvicorn.Server(config)
+        self.server = uvicorn.Server(config)
         self._socket = listening
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
         self.loop: asyncio.AbstractEventLoop = asyncio.new_event_loop()
@@ -330,23 +330,20 @@ class _ServerThread:
         """
         self._thread.start()
         ends_s = time.monotonic() + _START_S
-        while not self._server.started:
+        while not self.server.started:
             if not self._thread.is_alive() or time.monotonic() > ends_s:
                 raise ChatRobotError(f"the server of the {self._thread.name} does not start")
             time.sleep(0.005)
 
-    def ask_to_end(self) -> None:
-        """Have it end, which takes it a moment."""
-        self._server.should_exit = True
-
-    def join(self) -> None:
-        """Wait until it has ended."""
+    def stop(self) -> None:
+        """End it, and wait for that."""
+        self.server.should_exit = True
         self._thread.join(_END_S)
 
     def _run(self) -> None:
         wake_promptly()
         asyncio.set_event_loop(self.loop)
         try:
-            self.loop.run_until_complete(self._server.serve([self._socket]))
+            self.loop.run_until_complete(self.server.serve([self._socket]))
         finally:
             self.loop.close()

@@ -95,8 +95,6 @@ class ChatController:
         self._said_stopped = False
         cleaned = clean(raw)
         texts = texts_in(cleaned)
-        if texts:
-            self._interrupted_s = float("-inf")  # what is said stands between two interrupts
         if len(raw) > LONGEST_CHARS:  # it may have been cut: never do a part of it
             self.stop_for_paste(cleaned)
             self.tell("line_too_long", limit=LONGEST_CHARS)
@@ -177,11 +175,10 @@ class ChatController:
     def interrupt(self) -> None:
         """Ctrl-C: stop the robot; the second one in a row leaves."""
         self.stop("Ctrl-C")
-        now_s = self._clock.now_s()
-        if now_s - self._interrupted_s <= TWICE_S:
+        before_s, self._interrupted_s = self._interrupted_s, self._clock.now_s()
+        if self._interrupted_s - before_s <= TWICE_S:
             self.display.leave(0)
             return
-        self._interrupted_s = now_s
         self._leaving = self.has_parted = False
         self.tell("interrupted")
 
@@ -246,6 +243,7 @@ class ChatController:
         self._note_said(turn, text)
 
     def _note_said(self, turn: int, text: str) -> None:
+        self._interrupted_s = float("-inf")  # it stands between two interrupts
         for note in self.on_said:
             note(turn, text)
 
