@@ -10,7 +10,7 @@ from chatrobot.language.changes import a_bit_of, changed, is_change
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edits import mirrored
-from chatrobot.language.frames import GO, SIDES, Frame
+from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.inverse import flipped, inverse, is_sideways
 from chatrobot.language.last_motion import check_answers_nothing, motion_meant, shapes_said, steps_of
 from chatrobot.language.manner import Pace
@@ -116,12 +116,18 @@ def _faced_as_before(whole: Frame, context: Context, pace: Pace) -> list[Step] |
 
 
 def _slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
-    """`Then slide back`, after a slide."""
+    """`Then slide back`, `a bit further left`, after a slide: no turn."""
     last = context.dialogue.last_motion
     slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
-    if slid and (whole.verb, whole.direction) == ("slide", "back") and not (whole.q or whole.flags):
+    if not slid or whole.q:
+        return None
+    if (whole.verb, whole.direction) == ("slide", "back") and not whole.flags:
         return inverse(list(steps_of(last)), pace.speed(whole))
-    return None
+    a_bit = whole.flags in ({"bit"}, {"bit", "more"}) and whole.verb in ("", "go", "shift") and not whole.rot
+    if not a_bit or whole.direction not in SIDES:
+        return None
+    bit = a_bit_of(steps_of(last), whole, pace)
+    return [replace(bit, direction_rad=DIRECTIONS[whole.direction])] if isinstance(bit, Drive) else None
 
 
 def _changed(whole: Frame, context: Context, pace: Pace) -> list[Step]:

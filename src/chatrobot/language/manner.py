@@ -34,7 +34,10 @@ class Pace:
         if "speed" in frame.q:
             return _positive(frame, "speed")
         said = _relative(frame, default, self.before_mps or default, limits.max_speed_mps)
-        return said if said is not None else self.speed_mps
+        usual = (
+            self.profile.defaults.speed_mps if self.speed_mps and frame.pace == "default" else self.speed_mps
+        )
+        return said if said is not None else usual  # `at normal speed`: not that of `from now on at 0.1 m/s`
 
     def rate(self, frame: Frame) -> float | None:
         """The turn rate a frame asks for, rad/s; None where it says nothing."""
