@@ -46,13 +46,13 @@ REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark
 BUSY := tests/nodes/test_busy_machine.py
 # Python 3.11 cannot parse a source for pytest's own tracebacks where a browser is driven, and then no test goes on.
 PLAIN := --tb=native
+# What is chosen, how many at a time, and where it is looked for.
+TWICE = $(BIN)/pytest $(1) $(2) $(PLAIN) $(3) || $(BIN)/pytest $(1) $(AGAIN) $(PLAIN) $(3)
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 3
-	$(BIN)/pytest -m "realtime and not alone" -n 2 --dist loadfile $(PLAIN) $(REALTIME) || \
-		$(BIN)/pytest -m "realtime and not alone" $(AGAIN) $(PLAIN) $(REALTIME)
-	$(BIN)/pytest -m alone -n 2 --dist loadfile $(PLAIN) $(filter-out $(BUSY),$(REALTIME)) || \
-		$(BIN)/pytest -m alone $(AGAIN) $(PLAIN) $(filter-out $(BUSY),$(REALTIME))
-	$(BIN)/pytest $(PLAIN) $(BUSY) || $(BIN)/pytest $(AGAIN) $(PLAIN) $(BUSY)
+	$(call TWICE,-m "realtime and not alone",-n 2 --dist loadfile,$(REALTIME))
+	$(call TWICE,-m alone,-n 2 --dist loadfile,$(filter-out $(BUSY),$(REALTIME)))
+	$(call TWICE,-m alone,,$(BUSY))
 
 bench: setup
 	@for file in bench/[a-z]*.py; do \

@@ -44,7 +44,3 @@ def pytest_collection_finish() -> None:
     gc.freeze()
     gc.set_threshold(50_000)  # a parsed source is a million objects, and no garbage either
     gc.enable()
-
-
-def pytest_sessionfinish() -> None:
-    gc.freeze()  # pytest looks for garbage five times over at the end

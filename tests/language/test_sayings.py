@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 1119, "en": 390, "de": 116}
+LEAST_CORRECT = {"zh": 1119, "en": 394, "de": 117}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:

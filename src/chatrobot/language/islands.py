@@ -41,20 +41,9 @@ _FLAGS = frozenset(
 _IDLE = frozenset({"until", "more", "total", "first", "all", "bit", "closer"})
 """Flags that an amount behind them makes idle: `until you've covered 2 m`."""
 _PASSABLE = frozenset({"there", "in_place", "no_turn"})
-_ENDS = frozenset(
-    {
-        "condition",
-        "negation",
-        "correction",
-        "doubt",
-        "refuse",
-        "operator",
-        "place",
-        "defined",
-        "order",
-        "compass",
-    }
-)
+_ENDS = frozenset({"condition", "negation", "correction", "doubt", "refuse", "operator", "order"}) | {
+    "place", "defined", "compass"
+}  # fmt: skip
 _BOUND = frozenset({"not", "condition", "later", "hypothetical"})
 _TOLD = frozenset({"earlier", "did", "past", "sees"})
 _WAYS = frozenset({"verb", "dir", "rot", "shape", "pace"})
@@ -92,7 +81,7 @@ def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], lis
                 over.append(said.strip(_MARKS))
             else:
                 unknown = [atom.text for atom in clause if atom.kind == "unknown"]
-                if may_be_needed(read.clause, names) or set(unknown) & set(relation_words("words")):
+                if may_be_needed(read.clause, names) or not relation_words("words").isdisjoint(unknown):
                     return [], []
                 over += unknown
                 is_end = read.clause.end in tuple(".!?;\n")
@@ -156,6 +145,7 @@ def _kept(atoms: Sequence[Atom], read: Read) -> list[Atom] | None:
 
 
 def _counts(atom: Atom) -> bool:
+    """Whether it says how often, or how many times as much as something else."""
     return atom.kind == "q" and atom.value in ("times", "count", "scale", "fold", "percent")
 
 

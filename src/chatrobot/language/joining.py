@@ -9,45 +9,12 @@ MANNER = frozenset({"speed", "rate", "percent", "fold", "faster"})
 
 def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
     """Both frames as one motion, or None where they are two; `joined` is the separator between them."""
-    if "trip" in last.flags and "each" in first.flags and not first.verb:
-        return None
-    if last.place and (first.direction or first.place or first.verb == "return"):
-        return None  # `go to the kitchen and back`: to a place, then another way
-    if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:
-        return None  # `come back, and a metre to the right`: another motion
-    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
-    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
-        return None
-    if joined == "then" or {"between", "halfway", "at_point", "after_each", "all"} & first.flags:
-        return None
-    if (
-        "radius" in last.q
-        and "length" in first.q
-        and first.direction in ("forward", "back")
-        and not first.rot
-    ):
-        return None  # `arc left 90, radius 1 m, forward 50 cm`: on, straight
-    if "again" in first.flags or is_times_only(first) or is_times_only(last):
-        return None
-    again = "again" in last.flags and not last.has_extent and (first.moves or first.flags != {"same_amount"})
-    if "all" in last.flags or again:
+    if _are_two(last, first, joined):
         return None
     if _is_told_in_degrees(last, first):
         return last
-    told = last.moves and last.has_extent
-    if {"between", "after_each"} & last.flags and told and first.has_extent and not first.moves:
+    if _have_amounts_apart(last, first):
         return None
-    if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
-        return None
-    if (
-        set(last.q) == {"number"}
-        and not (last.moves or last.flags)
-        and first.moves
-        and (first.has_extent or first.verb == "return")
-    ):
-        return None  # `1 m, 180, 1 m back`
-    if "number" in last.q and last.direction in SIDES and set(first.q) == {"length"} and not first.moves:
-        return None  # `left 45, 1 m`: a turn, then a drive
     if "while" in first.flags and last.verb in GO and first.verb in TURN and not last.has_extent:
         last = last.copy()
         last.flags.add("while")
@@ -71,10 +38,55 @@ def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
     return both if _belongs(last, first) else None
 
 
+def _are_two(last: Frame, first: Frame, joined: str) -> bool:
+    """Whether the second is a motion of its own, by how it is joined and what it points at."""
+    if "trip" in last.flags and "each" in first.flags and not first.verb:
+        return True
+    if last.place and (first.direction or first.place or first.verb == "return"):
+        return True  # `go to the kitchen and back`: to a place, then another way
+    if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:
+        return True  # `come back, and a metre to the right`: another motion
+    trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
+    if trip and (last.verb == "return" or (last.direction and last.has_extent)):
+        return True
+    if joined == "then" or {"between", "halfway", "at_point", "after_each", "all"} & first.flags:
+        return True
+    if _goes_on_straight(last, first):
+        return True
+    if "again" in first.flags or is_times_only(first) or is_times_only(last):
+        return True
+    again = "again" in last.flags and not last.has_extent and (first.moves or first.flags != {"same_amount"})
+    return bool("all" in last.flags or again)
+
+
+def _have_amounts_apart(last: Frame, first: Frame) -> bool:
+    """Whether each has an amount of its own, so that they are two motions."""
+    told = last.moves and last.has_extent
+    if {"between", "after_each"} & last.flags and told and first.has_extent and not first.moves:
+        return True
+    if "number" in first.q and (last.has_extent or "number" in last.q) and not (last.shape or first.shape):
+        return True
+    if (
+        set(last.q) == {"number"}
+        and not (last.moves or last.flags)
+        and first.moves
+        and (first.has_extent or first.verb == "return")
+    ):
+        return True  # `1 m, 180, 1 m back`
+    turns = "number" in last.q and last.direction in SIDES
+    return turns and set(first.q) == {"length"} and not first.moves  # `left 45, 1 m`: a turn, then a drive
+
+
 def _is_told_in_degrees(last: Frame, first: Frame) -> bool:
     """`A twirl to the left, 360 degrees`: the same amount once more."""
     bare = set(first.q) == {"angle"} and not (first.moves or first.flags or first.roles or first.pace)
     return bare and "turns" in last.q and abs(last.q["turns"].number - first.q["angle"].number) < 1e-3
+
+
+def _goes_on_straight(last: Frame, first: Frame) -> bool:
+    """`Arc left 90, radius 1 m, forward 50 cm`: what comes after a curve is no length of it."""
+    straight = first.direction in ("forward", "back") and not first.rot
+    return straight and "radius" in last.q and "length" in first.q
 
 
 def _names_the_side(last: Frame, first: Frame) -> bool:

@@ -265,9 +265,8 @@ def _with_unit(
     end = at[0] + len(number)
     beside = next((one.signs for one in clauses if end <= one.stop), ())
     is_bare = len(clauses) > 1 and not any(sign.label == "VERB" for sign in beside)
-    is_angle = after_turn or (
-        is_bare and unit == "cm" and float(number) % 15 == 0
-    )  # `go 1 m, 90 right, go 1 m`
+    is_next = is_bare and unit == "cm" and float(number) % 15 == 0  # `go 1 m, 90 right, go 1 m`
+    is_angle = after_turn or is_next
     for each in (_DEG, unit) if is_angle else (unit,):
         with contextlib.suppress(Unclear):
             meant = read(f"{plain[:end]} {each}{plain[end:]}")

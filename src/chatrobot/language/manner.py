@@ -34,10 +34,7 @@ class Pace:
         if "speed" in frame.q:
             return _positive(frame, "speed")
         said = _relative(frame, default, self.before_mps or default, limits.max_speed_mps)
-        usual = (
-            self.profile.defaults.speed_mps if self.speed_mps and frame.pace == "default" else self.speed_mps
-        )
-        return said if said is not None else usual  # `at normal speed`: not that of `from now on at 0.1 m/s`
+        return said if said is not None else _standing(frame, self.speed_mps, self.profile.defaults.speed_mps)
 
     def rate(self, frame: Frame) -> float | None:
         """The turn rate a frame asks for, rad/s; None where it says nothing."""
@@ -45,7 +42,14 @@ class Pace:
         if "rate" in frame.q:
             return _positive(frame, "rate")
         said = _relative(frame, default, self.before_radps or default, limits.max_rate_radps)
-        return said if said is not None else self.rate_radps
+        return (
+            said if said is not None else _standing(frame, self.rate_radps, self.profile.defaults.rate_radps)
+        )
+
+
+def _standing(frame: Frame, chosen: float | None, usual: float) -> float | None:
+    """The speed that was chosen from now on; `at normal speed` is the profile's all the same."""
+    return usual if chosen and frame.pace == "default" else chosen
 
 
 def _positive(frame: Frame, name: str) -> float:

@@ -16,7 +16,7 @@ from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.resuming import saying
-from chatrobot.language.rules import rules
+from chatrobot.language.rules import Rule, rules
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import taken_back
@@ -102,11 +102,16 @@ def is_correction(record: TurnRecord | None) -> bool:
 def asked_by_remark(text: str, language: str) -> str:
     """The order that a remark like `wrong way`, `it was 20 cm short` most likely asks for; empty for anything else."""
     fixed = next((order for order, says in _remarks(language) if says(text)), "")
-    table, plain = load_table(language, "remarks"), normalise(text)
-    measured = rules(
-        f"remarks_{language}", table.get("measured", ()), load_table(language, "rephrase").get("parts", {})
-    )
-    return fixed or next((rule.applied(plain) for rule in measured if rule.is_in(plain)), "")
+    if fixed:
+        return fixed
+    plain = normalise(text)
+    return next((rule.applied(plain) for rule in _measured(language) if rule.is_in(plain)), "")
+
+
+@cache
+def _measured(language: str) -> tuple[Rule, ...]:
+    parts = load_table(language, "rephrase").get("parts", {})
+    return rules(f"remarks_{language}", load_table(language, "remarks").get("measured", ()), parts)
 
 
 @cache
