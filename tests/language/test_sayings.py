@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 1119, "en": 394, "de": 117}
+LEAST_CORRECT = {"zh": 1121, "en": 403, "de": 119}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:

@@ -177,8 +177,10 @@ def _s_bend(found: Measures) -> list[Step]:
 
 def _circle(found: Measures) -> list[Step]:
     radius = _radius(found)
-    of_it = found.angle_rad / (2 * math.pi) if found.angle_rad else 1.0  # `30 degrees of a circle`
-    rounds = {"circle": found.rounds * of_it, "half_circle": 0.5, "quarter_circle": 0.25}[found.shape]
+    said = found.angle_rad and found.angle_rad / (2 * math.pi)  # `30 degrees of a circle`
+    rounds = {"circle": found.rounds * (said or 1.0), "half_circle": 0.5, "quarter_circle": 0.25}[found.shape]
+    if said and found.shape != "circle" and not math.isclose(said, rounds):
+        raise Unclear("contradiction", found.text)  # `half a circle, 45 degrees`
     if rounds < 1 and not found.side_said:
         raise Unclear("which_side", found.shape.replace("_", " "))
     speed, sweep = found.speed, 2 * math.pi * rounds

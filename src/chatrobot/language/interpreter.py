@@ -222,7 +222,10 @@ class OfflineInterpreter:
         except Unclear as problem:
             if problem.refused and missing is not None:
                 raise missing from None  # `slide over 2 feet, so I can get this ladder by`: to which side?
-            asked = "" if problem.refused else without_requests(rest or plain, names)
+            is_final = (
+                problem.refused or problem.code == "condition"
+            )  # `if you can turn left, …` is no request
+            asked = "" if is_final else without_requests(rest or plain, names)
             if asked:
                 with contextlib.suppress(Unclear):
                     return self._interpreted(asked, language, context)

@@ -17,6 +17,15 @@ from chatrobot.language.unclear import Unclear
 _SHOWN = 60
 
 
+_ASKED = {
+    "contradicts": "contradiction",
+    "sizeless": "which_size",
+    "conditional": "condition",
+    "unread": "unclear_motion",
+}
+"""The code that is asked back with where a text matches a list of the table."""
+
+
 def breaks_off(text: str, language: str) -> str:
     """The words with which a normalised text breaks off, or an empty string."""
     found = form(language, "unfinished", "end").search(text)
@@ -27,13 +36,12 @@ def breaks_off(text: str, language: str) -> str:
 
 def check_consistent(text: str, language: str) -> None:
     """Ask back where a normalised text says two things at once, asks for a lap and not round what, or has
-    a part that no rule reads and that changes what is meant.
+    a part that no rule reads and that changes what is meant, or tells only what may be possible.
 
     Raises:
         Unclear: for such a text.
     """
-    asked = {"contradicts": "contradiction", "sizeless": "which_size", "unread": "unclear_motion"}
-    for name, code in asked.items():
+    for name, code in _ASKED.items():
         if any(rule.is_in(text) for rule in _rules(language, name)):
             raise Unclear(code, text[:_SHOWN])
 
