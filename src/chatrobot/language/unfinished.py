@@ -49,7 +49,8 @@ def check_consistent(text: str, language: str) -> None:
 @cache
 def _rules(language: str, name: str) -> tuple[Rule, ...]:
     listed = load_table(language, "unfinished").get(name, ())
-    return rules(f"unfinished_{language}_{name}", [(rule, "") for rule in listed], {})
+    parts = load_table(language, "rephrase").get("parts", {})
+    return rules(f"unfinished_{language}_{name}", [(rule, "") for rule in listed], parts)
 
 
 @cache
