@@ -185,8 +185,9 @@ def measure(count: int, folder: str) -> None:
     print_row(f"{count:2d} robots", listener, pids, first=0)
     with recorded(robots, taps, Path(folder)):
         print_row(f"{count:2d} robots, recorded", listener, pids, first=0)
-    threading.Thread(target=_rehearse, args=(sessions[:2],), daemon=True).start()
-    print_row(f"{count:2d} robots, while two others rehearse without end", listener, pids, first=2)
+    if count > 2:
+        threading.Thread(target=_rehearse, args=(sessions[:2],), daemon=True).start()
+        print_row(f"{count - 2:2d} robots, while two others rehearse without end", listener, pids, first=2)
     listener.kill()
     listener.wait()
     if ended := [result for session in sessions[2:] for result in session.results.values()]:
