@@ -24,12 +24,16 @@ from chatrobot.plan.steps import Arc, Drive, Turn
 _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
 """Flags of what points at the motion before or is a motion itself, and answers no question."""
 
+_LIGHT = frozenset({"glue", "filler"})
+_MOTION = frozenset({"verb", "dir", "rot", "q", "shape", "place", "number", "forbid", "condition"})
+
 
 def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     """A fragment answers what was asked back about the turn before."""
     pending = reading.context.dialogue.pending
     if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
         return None
+    plain = _without_reason(plain, reading)
     if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
         return None
     if changes_nothing_said(normalise(pending), reading):
@@ -58,6 +62,14 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
+
+
+def _without_reason(plain: str, reading: Reading) -> str:
+    """A way, without what is told behind it: `to the right, there's more room`."""
+    way, told = [*re.split(r"[,.;!] ?", plain, maxsplit=1), ""][:2]
+    is_way = {a.kind for a in reading.atoms(way)} - _LIGHT == {"dir"}
+    atoms = reading.atoms(told) if told and is_way else []
+    return way if atoms and not any(a.kind in _MOTION for a in atoms) else plain
 
 
 def _without_talk(pending: str, reading: Reading) -> str:

@@ -35,7 +35,11 @@ def _in_full(pattern: str, language: str) -> str:
     """A pattern with what a name may be, and what none is."""
     table = load_table(language, "dialogue_forms")
     pattern = in_full(pattern, table.get("parts", {}))
-    return pattern.replace("@no_place", table.get("no_place", "")).replace("@name", table.get("name", ""))
+    return (
+        pattern.replace("@no_place", table.get("no_place", ""))
+        .replace("@name", table.get("name", ""))
+        .replace("@cue", table.get("cue", ""))
+    )
 
 
 @cache

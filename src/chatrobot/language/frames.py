@@ -35,6 +35,8 @@ DIRECTIONS = {
 }  # fmt: skip
 """Where each lies from the robot's front, radians, counter-clockwise."""
 
+_ROUND = ("circle", "half_circle", "quarter_circle")
+
 _IMPLIED = {"redo": ("again",), "mirrored": ("other_way",)}
 """Flags that say another one as well."""
 
@@ -233,7 +235,7 @@ class Frame:
             return self._set_direction(new)
         if old == new or (old in DIAGONALS.values() and new in old.split("_")):
             return True
-        if self.is_arc or "diagonal" in self.flags or "while" in self.flags:
+        if self.is_arc or self.shape in _ROUND or "diagonal" in self.flags or "while" in self.flags:
             return self._combine(old, new)
         return False
 
@@ -241,7 +243,7 @@ class Frame:
         both = (old, new) if old in ("forward", "back") else (new, old)
         if both not in DIAGONALS:
             return False
-        if self.is_arc:
+        if self.is_arc or self.shape in _ROUND:
             if self.direction2 and self.direction2 != both[1]:
                 return False
             self.direction, self.direction2 = both

@@ -33,6 +33,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.detect import spoken
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import with_known_counts
+from chatrobot.language.forms import read_definition
 from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
@@ -65,7 +66,7 @@ from chatrobot.language.starting import (
 from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.unfinished import check_consistent
+from chatrobot.language.unfinished import check_consistent, check_unconditional
 from chatrobot.language.waiting import amended, of_held, of_offered
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan
@@ -118,6 +119,8 @@ class OfflineInterpreter:
         try:
             return self._held(text, language, context) or self._ordered(text, language, context)
         except Unclear as problem:
+            if problem.code == "condition":
+                return asked_back(problem, language)
             parted = with_tails_parted(with_breaks(text, language), names_in(context))
             meant = self._meant(parted, language, context) if parted != text else None
             if meant is not None and meant.plan is not None:
@@ -203,10 +206,13 @@ class OfflineInterpreter:
         told = self._told(plain, language, context)
         if told is not None:
             return told
+        check_unconditional(plain, language)
         names = names_in(context)
         reads = read_acts(plain, names)
         apart = set_off(plain, reads, language, names)
         talk = [read for read in reads if read in (*apart, *talk_in(reads))]
+        if read_definition(plain, language) is not None:
+            talk = []  # `our dance goes like this: …`
         rest, missing = without(plain, reads, talk), None
         if rest:
             try:

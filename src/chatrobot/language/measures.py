@@ -76,7 +76,7 @@ def measured(parts: list[Frame], pace: Pace) -> Measures:
         if head.shape == "sbend" and part.shape == "half_circle":
             found.angle_rad = math.pi
         _take_side(found, head, part)
-        found.back = found.back or part.direction == "back"
+        found.back = found.back or part.direction.startswith("back")
         found.sliding = found.sliding or bool({"no_turn", "sideways"} & part.flags) or part.verb == "slide"
         found.speed = pace.speed(part) or found.speed
     return found

@@ -100,7 +100,8 @@ def names_in(context: Context) -> dict[Key, Meaning]:
             continue  # a unit: it is counted
         names[cut(normalise(word))] = (("defined", word),)
         if word.isascii() and not word.endswith("s"):
-            names[cut(normalise(f"{word}s"))] = (("defined", word),)
+            ending = "es" if word.endswith(("x", "z", "ch", "sh")) else "s"
+            names[cut(normalise(f"{word}{ending}"))] = (("defined", word),)
     if forms.UNNAMED in dialogue.places:
         for language in LANGUAGES:
             for pattern in load_table(language, "dialogue_forms")["that_place"]:

@@ -102,13 +102,17 @@ def _ends_at(atoms: list[Atom], *, at_then: bool = False) -> int:
         ends = (
             broken
             or (atom.kind, atom.value) == ("sep", "strong")
-            or (atom.kind == "conn" and "after" in atom.text)
+            or (atom.kind == "conn" and ("after" in atom.text or _is_last(atoms[i + 1 : i + 2])))
         )
         if not ends or not any(a.kind in _CONTENT for a in atoms[:i]):
             continue
         if any(a.kind in _CONTENT for a in atoms[i + 1 :]):
             return i
     return len(atoms)
+
+
+def _is_last(atoms: list[Atom]) -> bool:
+    return any((a.kind, a.value) == ("flag", "finally") for a in atoms)
 
 
 def _is_told_again(head: list[Atom], tail: list[Atom]) -> bool:

@@ -41,9 +41,23 @@ def check_consistent(text: str, language: str) -> None:
     Raises:
         Unclear: for such a text.
     """
-    for name, code in _ASKED.items():
-        if any(rule.is_in(text) for rule in _rules(language, name)):
-            raise Unclear(code, text[:_SHOWN])
+    for name in _ASKED:
+        _check(text, language, name)
+
+
+def check_unconditional(text: str, language: str) -> None:
+    """Ask back where the whole of a normalised text is ordered on a condition that the robot cannot judge: of its
+    clauses alone, that one may look like an aside.
+
+    Raises:
+        Unclear: for such a text.
+    """
+    _check(text, language, "conditional")
+
+
+def _check(text: str, language: str, name: str) -> None:
+    if any(rule.is_in(text) for rule in _rules(language, name)):
+        raise Unclear(_ASKED[name], text[:_SHOWN])
 
 
 @cache
