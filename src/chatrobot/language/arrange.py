@@ -83,10 +83,10 @@ def _without_calls(frames: list[Frame]) -> list[Frame]:
     return out
 
 
-def _is_manner(frame: Frame) -> bool:
-    """走快点, 速度调到每秒两米: how to go, not where."""
+def _is_manner(frame: Frame, *, heads: bool = False) -> bool:
+    """走快点, 速度调到每秒两米: how to go, not where; `heads`: before a colon, as `at 0.1 m/s: …`."""
     bare = not (frame.direction or frame.rot or frame.shape or frame.place or frame.roles or frame.words)
-    said = bool(frame.pace) or (bool(frame.q) and "speed_set" in frame.flags)
+    said = bool(frame.pace) or (bool(frame.q) and (heads or "speed_set" in frame.flags))
     return (
         bare and said and set(frame.q) <= _MANNER and frame.verb in ("", *GO, *TURN)
         and frame.flags <= {"bit", "speed_set"}
@@ -96,16 +96,18 @@ def _is_manner(frame: Frame) -> bool:
 def _with_manners(frames: list[Frame]) -> list[Frame]:
     out: list[Frame] = []
     pending: Frame | None = None
+    for_all = False
     for k, frame in enumerate(frames):
-        manner = _is_manner(frame) and len(frames) > 1
+        heads = k + 1 < len(frames) and frames[k + 1].joined == "colon"
+        manner = _is_manner(frame, heads=heads) and len(frames) > 1
         if manner and k + 1 < len(frames) and (frames[k + 1].joined != "then" or "speed_set" in frame.flags):
-            pending = frame
+            pending, for_all = frame, heads or "speed_set" in frame.flags
         elif manner and out and frame.verb in ("", out[-1].verb, "go") and frame.joined != "then":
             _hand_on(frame, out[-1])
         else:
             if pending is not None and frame.moves:
                 _hand_on(pending, frame)
-                pending = pending if "speed_set" in pending.flags else None
+                pending = pending if for_all else None
             out.append(frame)
     return out or frames
 

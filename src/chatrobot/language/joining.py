@@ -9,7 +9,7 @@ MANNER = frozenset({"speed", "rate", "percent", "fold", "faster"})
 
 def joined_frame(last: Frame, first: Frame, joined: str) -> Frame | None:
     """Both frames as one motion, or None where they are two; `joined` is the separator between them."""
-    if _are_two(last, first, joined):
+    if _are_two(last, first, joined) or (joined == "colon" and _tells_pace(last)):
         return None
     if _is_told_in_degrees(last, first):
         return last
@@ -57,6 +57,11 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
         return True
     again = "again" in last.flags and not last.has_extent and (first.moves or first.flags != {"same_amount"})
     return bool("all" in last.flags or again)
+
+
+def _tells_pace(frame: Frame) -> bool:
+    """`At 0.1 m/s: …`: how to go, of all that comes behind the colon."""
+    return not frame.moves and not frame.flags and frame.q.keys() <= MANNER and bool(frame.q or frame.pace)
 
 
 def _have_amounts_apart(last: Frame, first: Frame) -> bool:
