@@ -70,7 +70,8 @@ def turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
 def _side(frame: Frame, state: State, around: bool) -> bool | None:
     """Whether it is to the left, as said here or before; None where nothing says so."""
     left = is_left(frame)
-    if left is None and (not frame.moves or (state.last == "turn" and "more" in frame.flags)):
+    goes_on = "more" in frame.flags or ("bit" in frame.flags and frame.joined == "then")  # 再转一点
+    if left is None and (not frame.moves or (state.last == "turn" and goes_on)):
         left = state.left
     return True if left is None and around else left
 
