@@ -42,6 +42,8 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
     """Whether the second is a motion of its own, by how it is joined and what it points at."""
     if "trip" in last.flags and "each" in first.flags and not first.verb:
         return True
+    if last.verb == first.verb == "defined":
+        return True  # `hop, hop`
     if last.place and (first.direction or first.place or first.verb == "return"):
         return True  # `go to the kitchen and back`: to a place, then another way
     if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:

@@ -26,6 +26,8 @@ _POINT = re.compile(
 _LETTERS = str.maketrans("0123456789.-+,e", "abcdefghijkmpqu", "() ")
 _TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
 
+_LIGHT = frozenset({"conn", "flag", "glue", "filler", "number", "num", "dir", "rot"})
+
 
 def with_points(text: str, context: Context) -> tuple[str, Context]:
     """`Go to (1, 1)`, `x=1 y=2`: each point, metres in the odom frame, is a place of this text alone, in one word."""
@@ -86,6 +88,17 @@ def _is_near(written: str, name: str) -> bool:
         return False
     off = 2 if len(name) >= _LONG_NAME else 1
     return edit_distance(written, name, off) <= off
+
+
+def without_light_words(names: dict[Key, Meaning]) -> dict[Key, Meaning]:
+    """The names without the taught words that the language has for something else than a motion: who taught `next` says
+    `next, turn left` in its usual sense, and the signal alone."""
+    known = lexicon().words
+    return {
+        key: meaning
+        for key, meaning in names.items()
+        if meaning[0][0] != "defined" or not {kind for kind, _ in known.get(key, ())} & _LIGHT
+    }
 
 
 def names_in(context: Context) -> dict[Key, Meaning]:

@@ -24,7 +24,7 @@ from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import instead
 from chatrobot.language.multiples import in_shares, with_multiples
-from chatrobot.language.names import names_in
+from chatrobot.language.names import names_in, without_light_words
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.order import in_order
 from chatrobot.language.quantities import read_quantities
@@ -33,7 +33,7 @@ from chatrobot.language.returning import back_to_places
 from chatrobot.language.script import Memory
 from chatrobot.language.standing import by_places, facing, stood
 from chatrobot.language.tidy import tidy
-from chatrobot.language.tokens import Atom, tokenise
+from chatrobot.language.tokens import SILENT, Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import Walked
 from chatrobot.language.writing import write
@@ -75,7 +75,11 @@ class Reading:
 
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
-        atoms = around_places(tokenise(plain, lexicon(), names_in(self.context), by_ear=self.by_ear))
+        names = names_in(self.context)
+        atoms = tokenise(plain, lexicon(), names, by_ear=self.by_ear)
+        if {atom.kind for atom in atoms} - SILENT > {"defined"}:
+            atoms = tokenise(plain, lexicon(), without_light_words(names), by_ear=self.by_ear)
+        atoms = around_places(atoms)
         atoms = by_places(with_denied_motions(read_quantities(atoms)))
         atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(atoms)))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))
