@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 1154, "en": 480, "de": 144}
+LEAST_CORRECT = {"zh": 1157, "en": 487, "de": 150}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:
