@@ -105,7 +105,7 @@ def _with_manners(frames: list[Frame]) -> list[Frame]:
         elif manner and out and frame.verb in ("", out[-1].verb, "go") and frame.joined != "then":
             _hand_on(frame, out[-1])
         else:
-            if pending is not None and frame.moves:
+            if pending is not None and (frame.moves or frame.has_extent):
                 _hand_on(pending, frame)
                 pending = pending if for_all else None
             out.append(frame)
@@ -118,6 +118,7 @@ def _hand_on(manner: Frame, frame: Frame) -> None:
     if frame.pace or _MANNER & set(frame.q):
         return
     turning = frame.turning or "angle" in frame.q or "turns" in frame.q
+    turning = turning or ("number" in frame.q and frame.direction in SIDES)  # `left 90`
     if ("rate" in manner.q and not turning) or ("speed" in manner.q and turning):
         return
     frame.pace = manner.pace
