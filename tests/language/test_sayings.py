@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 1157, "en": 488, "de": 151}
+LEAST_CORRECT = {"zh": 1158, "en": 492, "de": 153}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:
