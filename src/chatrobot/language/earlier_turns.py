@@ -24,6 +24,10 @@ from chatrobot.plan.steps import Arc, Drive, Turn
 _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
 """Flags of what points at the motion before or is a motion itself, and answers no question."""
 
+_UNANSWERED = frozenset(
+    {"only_forbidden", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
+)
+"""What was said of an order that no word of an answer could complete."""
 _LIGHT = frozenset({"glue", "filler"})
 _MOTION = frozenset({"verb", "dir", "rot", "q", "shape", "place", "number", "forbid", "condition"})
 
@@ -40,8 +44,8 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         return None  # it was to change a plan, and did not: nothing is to stay of it
     pending = _without_talk(pending, reading)
     before = rephrased(normalise(pending), reading.language)
-    if _forbids(before, reading):
-        return None  # `don't turn left`: what is ordered instead has nothing of it
+    if _lacks_nothing(before, reading):
+        return None  # `don't turn left`, `undo that`: what is ordered instead has nothing of it
     atoms = tidy(reading.atoms(plain))
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
@@ -79,11 +83,11 @@ def _without_talk(pending: str, reading: Reading) -> str:
     return without(plain, reads, set_off(plain, reads, reading.language, names)) or pending
 
 
-def _forbids(before: str, reading: Reading) -> bool:
+def _lacks_nothing(before: str, reading: Reading) -> bool:
     try:
         read_command(before, reading)
     except Unclear as problem:
-        return problem.code == "only_forbidden"
+        return problem.code in _UNANSWERED
     return False
 
 

@@ -208,6 +208,12 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     return [step for n in at for step in units[n - 1]]
 
 
+def _ends_with(plain: str, words: Sequence[str]) -> bool:
+    """Whether one of the words ends it, whole: `undo that` is no `do that`."""
+    ends = [word for word in words if plain.endswith(word)]
+    return any(not word.isascii() or not plain.removesuffix(word)[-1:].isalpha() for word in ends)
+
+
 def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
     """`Do that` after a question: what was asked about, and not the motion before; 左转到九十度 after a turn.
 
@@ -220,7 +226,7 @@ def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
     if (dialogue.last_motion is not None and is_up_to) or plain.strip(" .!") in table.get("pointing", ()):
         raise Unclear("unclear_motion", plain[:60])
     last = dialogue.turns[-1] if dialogue.turns else None
-    if last is not None and last.plan is None and plain.strip(" .!").endswith(tuple(words)):
+    if last is not None and last.plan is None and _ends_with(plain.strip(" .!"), words):
         raise Unclear("nothing_before", plain[:60])
 
 
