@@ -29,7 +29,9 @@ _UNANSWERED = frozenset(
 )
 """What was said of an order that no word of an answer could complete."""
 _LIGHT = frozenset({"glue", "filler"})
-_MOTION = frozenset({"verb", "dir", "rot", "q", "shape", "place", "number", "forbid", "condition"})
+_MOTION = frozenset(
+    {"verb", "dir", "rot", "q", "shape", "place", "number", "negation", "correction", "condition"}
+)
 
 
 def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
