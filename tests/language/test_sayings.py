@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 1160, "en": 498, "de": 155}
+LEAST_CORRECT = {"zh": 1161, "en": 503, "de": 157}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:

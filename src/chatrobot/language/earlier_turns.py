@@ -18,6 +18,7 @@ from chatrobot.language.selections import same_speed
 from chatrobot.language.set_off import set_off
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
+from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Turn
 
@@ -28,7 +29,6 @@ _UNANSWERED = frozenset(
     {"only_forbidden", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
 )
 """What was said of an order that no word of an answer could complete."""
-_LIGHT = frozenset({"glue", "filler"})
 _MOTION = frozenset(
     {"verb", "dir", "rot", "q", "shape", "place", "number", "negation", "correction", "condition"}
 )
@@ -73,7 +73,7 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
 def _without_reason(plain: str, reading: Reading) -> str:
     """A way, without what is told behind it: `to the right, there's more room`."""
     way, told = [*re.split(r"[,.;!] ?", plain, maxsplit=1), ""][:2]
-    is_way = {a.kind for a in reading.atoms(way)} - _LIGHT == {"dir"}
+    is_way = {a.kind for a in reading.atoms(way)} - SILENT == {"dir"}
     atoms = reading.atoms(told) if told and is_way else []
     return way if atoms and not any(a.kind in _MOTION for a in atoms) else plain
 
