@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pyte
@@ -23,6 +24,13 @@ NAMED = {
 FAINT = "8a93a3"
 FAINT_SGR = re.compile(rb"\x1b\[2(;[0-9;]*)?m")
 _GREY = b"\x1b[38;2;138;147;163m"
+_MONO_FILES = (
+    "DejaVuSansMono.ttf",
+    "LiberationMono-Regular*",
+    "UbuntuMono*",
+    "NotoSansMono-Regular*",
+    "Menlo*",
+)
 _DOT_BITS = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3))
 
 
@@ -73,11 +81,17 @@ def _cell(draw: ImageDraw.ImageDraw, x: float, y: float, char: Char) -> None:
             _letter(draw, x, y, letter, ink, char.bold)
 
 
+@cache
+def _mono() -> fonts.Font | None:
+    """A font whose letters are all as wide as each other, and which has braille."""
+    return fonts.installed(_MONO_FILES, FONT_PX * SCALE)
+
+
 def _letter(
     draw: ImageDraw.ImageDraw, x: float, y: float, letter: str, ink: tuple[int, int, int], bold: bool
 ) -> None:
     is_wide = ord(letter) >= 0x2E80
-    font = fonts.han(FONT_PX * SCALE) if is_wide else fonts.mono(FONT_PX * SCALE)
+    font = fonts.han(FONT_PX * SCALE) if is_wide else _mono()
     if font is None:
         raise SystemExit(
             "no font for this: install DejaVu Sans Mono, and a Chinese one such as WenQuanYi Micro Hei"

@@ -252,7 +252,7 @@ def _connect_simulated(prepared: Prepared, on_event: OnEvent) -> Connection:
 
     def build(emit: OnEvent) -> Motion:
         planner = Planner(profile, world)
-        return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), programs=programs)
+        return Motion(profile, wire, clock, planner, guard, emit, lambda job: job(), programs)
 
     link = InProcessLink(build, wire, clock, robot.step, guard, hub.connect(), profile.wiring.cmd_vel_topic)
     link.live(SETTLE_S)
@@ -320,8 +320,8 @@ def _connect_wire(prepared: Prepared, on_event: OnEvent) -> Connection:
         if address.startswith(("rosbridge:", "local:")):
             # Motion would wait, and could not say for what. A simulated robot leaves when the last of us has left.
             held.callback(connect_wire(address, profile.wiring, "chatrobot").close)
-        motion = MotionProcess.start(
-            address, profile_file, setup.world, setup.budget, open_loop=setup.open_loop
+        (motion,) = MotionProcess.start(
+            [address], profile_file, setup.world, setup.budget, open_loop=setup.open_loop
         )
         link = SocketLink(motion, setup.source)
         link.wait_until_ready()

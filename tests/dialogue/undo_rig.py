@@ -16,6 +16,7 @@ from chatrobot.link.in_process import InProcessLink
 from chatrobot.link.motion_link import Sender
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -41,7 +42,10 @@ class UndoRig:
         wire, guard = hub.connect(), SimulatedGuard(clock)
 
         def build(emit: Callable[[Event], None]) -> Motion:
-            motion = Motion(profile, wire, clock, Planner(profile, around), guard, emit, lambda goal: goal())
+            programs = ProgramHost(profile, is_in_step=True)
+            motion = Motion(
+                profile, wire, clock, Planner(profile, around), guard, emit, lambda goal: goal(), programs
+            )
             self._motion_of.append(motion)
             return motion
 

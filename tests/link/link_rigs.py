@@ -16,6 +16,7 @@ from chatrobot.link.processes import MotionProcess, spawn
 from chatrobot.link.socket_link import SocketLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
@@ -55,7 +56,10 @@ class SimulatedRig:
 
         def build(emit: Callable[[Event], None]) -> Motion:
             planner = Planner(profile, load_world("empty"))
-            return Motion(profile, wire, clock, planner, guard, emit, lambda goal: goal(), releasers)
+            programs = ProgramHost(profile, is_in_step=True)
+            return Motion(
+                profile, wire, clock, planner, guard, emit, lambda goal: goal(), programs, releasers
+            )
 
         self.link: MotionLink = InProcessLink(
             build, wire, clock, self.robot.step, guard, hub.connect(), "cmd_vel"
@@ -72,7 +76,7 @@ class ProcessRig:
     def __init__(self, folder: Path, budget: MotionBudget = NOT_CHOSEN) -> None:
         path = folder / "robot.wire"
         self._robot = spawn("chatrobot.sim", "--socket", str(path), "--profile", PROFILE, "--world", "empty")
-        link = SocketLink(MotionProcess.start(str(path), PROFILE, "empty", budget))
+        link = SocketLink(MotionProcess.start([str(path)], PROFILE, "empty", budget)[0])
         link.wait_until_ready()
         self.link: MotionLink = link
         self.velocities: list[TwistMessage] = []

@@ -18,7 +18,7 @@ def test_a_heartbeat_may_overtake_a_plan_and_a_stop_that_does_ends_it(
     rig = SimulatedRig(tmp_path)
     link = rig.link
     assert isinstance(link, InProcessLink)
-    plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    plan = link.sender.envelope("plan", 1, plan_text="drive 0.1 m")
     link.send(overtaking)  # type: ignore[arg-type]
     link._motion.receive(plan)
     assert finished(rig, 1).outcome == outcome

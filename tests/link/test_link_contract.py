@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from tests.link.leaving import abandon
 from tests.link.link_rigs import (
     LinkRig,
     ProcessRig,
@@ -183,7 +184,7 @@ def test_a_goodbye_lets_what_is_queued_be_done(rig: LinkRig) -> None:
 def test_a_source_that_leaves_without_goodbye_stops_the_robot(rig: LinkRig) -> None:
     send_plan(rig, 1, "drive 5 m")
     moving(rig, 1)
-    rig.link.abandon()
+    abandon(rig.link)
     assert is_at_rest(rig)
 
 

@@ -70,7 +70,7 @@ def velocities(robot: Path) -> Iterator[list[TwistMessage]]:
 def test_on_a_socket_an_old_console_is_refused_and_its_stop_is_heard(
     robot: Path, velocities: list[TwistMessage]
 ) -> None:
-    motion = MotionProcess.start(str(robot), "wheeltec_mini_mec", "empty")
+    motion = MotionProcess.start([str(robot)], "wheeltec_mini_mec", "empty")[0]
     line, ends = motion.line, dict[int, Any]()
     assert line.recv(PACKET_BYTES) == f"ready {PROTOCOL}".encode()
 

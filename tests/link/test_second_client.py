@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from tests.link.leaving import abandon
 
 from chatrobot.compose import Connection, Setup, connect
 from chatrobot.core.errors import LinkError, UsageError
@@ -186,7 +187,7 @@ def test_an_agent_that_is_lost_while_it_drives_stops_the_robot_alone(make: Calla
     pair = make()
     pair.agent.say("forward 5 m")
     pair.until(pair.moves)
-    pair.agent._link.abandon()
+    abandon(pair.agent._link)
     finished = []
     for _ in range(PATIENCE):
         pair.person.pump(0.02)
@@ -203,7 +204,7 @@ def test_an_agent_that_is_lost_stops_nothing_of_a_persons(make: Callable[..., Pa
     pair = make()
     turn = pair.person.say("forward 1 m")
     pair.until(pair.moves)
-    pair.agent._link.abandon()
+    abandon(pair.agent._link)
     assert pair.person.see_through(turn).outcome == "completed"
 
 
@@ -211,7 +212,7 @@ def test_a_question_of_an_agent_that_is_lost_is_over(make: Callable[..., Pair]) 
     pair = make(ASKS)
     pair.agent.say("forward 0.2 m")
     pair.until(lambda: of_kind(pair.heard, Rehearsed))
-    pair.agent._link.abandon()
+    abandon(pair.agent._link)
     for _ in range(PATIENCE):
         pair.person.pump(0.02)
         if of_kind(pair.heard, Finished):

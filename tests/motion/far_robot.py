@@ -11,6 +11,7 @@ from chatrobot.core.events import Event, Finished, Notice
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -101,7 +102,10 @@ class Rig:
 
         def build(emit: Callable[[Event], None]) -> Motion:
             planner = Planner(profile, load_world("empty"))
-            self.motion = Motion(profile, wire, self.clock, planner, guard, emit, lambda goal: goal())
+            programs = ProgramHost(profile, is_in_step=True)
+            self.motion = Motion(
+                profile, wire, self.clock, planner, guard, emit, lambda goal: goal(), programs
+            )
             return self.motion
 
         self.link = InProcessLink(

@@ -211,7 +211,7 @@ def joint_of(tmp_path: Path) -> tuple[SimulatedRig, InProcessLink]:
 
 def test_a_plan_that_a_stop_has_overtaken_hears_of_that_stop(tmp_path: Path) -> None:
     rig, link = joint_of(tmp_path)
-    plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    plan = link.sender.envelope("plan", 1, plan_text="drive 0.1 m")
     link.send("stop", 1, why="hold it")
     link._motion.receive(plan)
     assert finished(rig, 1).reason == Reason("stopped_by", {"source": "console", "why": "hold it"})
@@ -219,7 +219,7 @@ def test_a_plan_that_a_stop_has_overtaken_hears_of_that_stop(tmp_path: Path) -> 
 
 def test_a_plan_that_another_word_has_overtaken_is_not_told_of_a_stop(tmp_path: Path) -> None:
     rig, link = joint_of(tmp_path)
-    plan = link._sender.envelope("plan", 1, plan_text="drive 0.1 m")
+    plan = link.sender.envelope("plan", 1, plan_text="drive 0.1 m")
     link.send("look", 2)
     link._motion.receive(plan)
     assert finished(rig, 1).reason == Reason("overtaken")
@@ -230,7 +230,7 @@ def test_a_plan_said_while_a_motion_failed_is_told_of_that_failure(tmp_path: Pat
     link.send("plan", 1, plan_text="drive 0.1 m")
     said_before = link._motion.stops
     link._motion._stops.halt_and_book(Reason("does_not_move"))
-    plan = link._sender.envelope("plan", 2, plan_text="drive 0.1 m")
+    plan = link.sender.envelope("plan", 2, plan_text="drive 0.1 m")
     link._motion.receive(plan, said_before)
     assert finished(rig, 2).reason == Reason("does_not_move")
 

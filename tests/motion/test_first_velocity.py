@@ -9,6 +9,7 @@ from chatrobot.core.events import Event
 from chatrobot.link.in_process import InProcessLink
 from chatrobot.motion.motion import Motion
 from chatrobot.motion.planner import Planner
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.watchdog import SimulatedGuard
 from chatrobot.robots.load import load_profile
 from chatrobot.sim.load import load_world
@@ -44,7 +45,10 @@ def test_no_zero_follows_the_first_velocity() -> None:
 
     def build(emit: Callable[[Event], None]) -> Motion:
         planner = Planner(profile, load_world("empty"))
-        return Motion(profile, wire, ClockThatPasses(clock), planner, guard, emit, lambda goal: goal())
+        programs = ProgramHost(profile, is_in_step=True)
+        return Motion(
+            profile, wire, ClockThatPasses(clock), planner, guard, emit, lambda goal: goal(), programs
+        )
 
     link = InProcessLink(build, wire, clock, robot.step, guard, hub.connect(), "cmd_vel")
     link.next_event(0.3)

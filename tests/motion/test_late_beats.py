@@ -57,8 +57,8 @@ class Robot:
                 self.link._advance(TICK_S)
             self.link.step()
             speeds.append(self.speed_mps)
-        while self.link._end.events:
-            self.events.append(self.link._end.events.popleft())
+        while self.link.events:
+            self.events.append(self.link.events.popleft())
         return speeds
 
     def silence(self, duration_s: float, tick_s: float = TICK_S) -> list[float]:

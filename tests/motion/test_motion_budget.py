@@ -224,7 +224,7 @@ def test_a_budget_that_is_lowered_under_way_stops_what_has_driven_more() -> None
 @pytest.mark.parametrize("source", ["web", "base", "agent", "program", "chatgpt_node", "joystick", "me"])
 def test_nobody_else_changes_it(source: str) -> None:
     rig = SimulatedRig(Path(), profile=limited(2.0))
-    rig.link._sender.source = source  # type: ignore[attr-defined]
+    rig.link.sender.source = source  # type: ignore[attr-defined]
     for payload in (INFINITE, {"max_distance_m": 50.0}, {"max_time_s": "none"}):
         rig.link.send("limit", **payload)
         assert [reason.code for reason in notices(rig)] == ["limit_refused"]
@@ -283,7 +283,7 @@ def test_no_model_lifts_it(reply: str) -> None:
 
 def test_an_agent_goes_on_only_when_a_person_has_ordered_it() -> None:
     rig = SimulatedRig(Path(), profile=limited(2.0))
-    rig.link._sender.source = "agent"  # type: ignore[attr-defined]
+    rig.link.sender.source = "agent"  # type: ignore[attr-defined]
     rig.link.send("hello")
     send_plan(rig, 1, "drive 1.5 m")
     assert finished(rig, 1).outcome == "completed"

@@ -83,7 +83,7 @@ def test_where_the_wire_is_closed_for_good_all_that_was_asked_for_has_failed(rig
     rig.begin("drive 1 m")
     rig.pass_time(1.0)
     rig.motion.give_up(Reason("wire_gone"))
-    rig.events += rig.link._end.events  # type: ignore[attr-defined]
+    rig.events += rig.link.events  # type: ignore[attr-defined]
     ends = [rig.end_of(turn) for turn in (1, 2)]
     assert [(end.outcome, end.reason and end.reason.code) for end in ends if end] == [
         ("failed", "wire_gone")

@@ -66,7 +66,7 @@ class Rig:
         self._thread.start()
         self.events: list[Event] = []
         address = f"rosbridge:ws://{self.host}:{bridge.port}"
-        self.link = SocketLink(MotionProcess.start(address, "wheeltec_mini_mec", "empty"))
+        self.link = SocketLink(MotionProcess.start([address], "wheeltec_mini_mec", "empty")[0])
         self.link.wait_until_ready()
 
     def _live(self) -> None:

@@ -23,6 +23,7 @@ from chatrobot.recording.redactor import Redactor
 from chatrobot.recording.topics import CMD_VEL, ODOM
 from chatrobot.recording.writer import RecordingWriter
 from chatrobot.wire.messages import Odometry, TwistMessage
+from tests.link.leaving import abandon
 
 PUPILS, PATIENCE_S = 20, 10.0
 
@@ -102,7 +103,7 @@ def test_while_the_disk_hangs_beats_go_out_and_a_stop_at_once(tmp_path: Path, di
         recorder.close()
     assert len(read(recorders[0].path).words) == 1000 / PUPILS
     motion.close()
-    link.abandon()
+    abandon(link)
 
 
 def word(motion: socket.socket) -> str:

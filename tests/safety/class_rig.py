@@ -13,6 +13,7 @@ from chatrobot.core.events import Event
 from chatrobot.web.pupils import connect_class
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.messages import TwistMessage
+from tests.link.leaving import abandon
 from tests.processes import Heard
 
 PATIENCE_S = 20.0
@@ -76,7 +77,7 @@ class RunningClass:
         for wire in self._wires:
             wire.close()
         for robot in self.robots:
-            robot.connection.link.abandon()
+            abandon(robot.connection.link)
         for pid in self.pids.values():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGCONT)

@@ -196,7 +196,7 @@ except KeyboardInterrupt:
 """
     with server.launch("sandbox_entries:run_source", source.encode()) as process:
         assert process.channel.recv(4) == b"here"
-        process.interrupt()
+        os.kill(process.pid, signal.SIGINT)
         report = process.wait(5)
         assert report is not None
         assert report.exit_code == 0
@@ -207,7 +207,7 @@ def test_two_programs_run_at_once_and_end_apart(server: WarmServer) -> None:
     with launch_forever(server) as first, launch_forever(server) as second:
         first.kill()
         assert first.wait(5) is not None
-        assert second.poll() is None
+        assert second.wait(0.0) is None
 
 
 def test_processor_time_is_limited(server: WarmServer) -> None:

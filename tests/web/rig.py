@@ -173,6 +173,17 @@ class WebRig:
     def room(self) -> Room:
         return self.rooms[""]
 
+    def call(self, job: Callable[[], None]) -> None:
+        """Have `job` done by the event loop of the pages."""
+        _, pages = self.server._threads
+        pages.loop.call_soon_threadsafe(job)
+
+    def revoke(self, token: str) -> None:
+        """Let nobody in with that token any more, and close what it had opened, as a class does."""
+        self.access.revoke(token)
+        for face in self.room.drop(token):
+            self.call(face.close)
+
     def tell(self, event: Event) -> None:
         """Have something happen."""
         self.room.hear(event)

@@ -186,7 +186,7 @@ def test_what_is_revoked_is_closed_at_once_and_opens_nothing_more(guarded: WebRi
     page, line = guarded.page(**how), guarded.stop_line(**how)
     page.say("say", text="forward 1 m")
     guarded.session.wait_for("say", "forward 1 m")
-    guarded.server.revoke("steers-it")
+    guarded.revoke("steers-it")
     guarded.session.wait_for("stop", "the steering page is gone")
     with pytest.raises(ConnectionClosed):
         page.wait_for("nothing")

@@ -162,8 +162,8 @@ def test_a_page_that_beats_keeps_its_plan_while_the_event_loop_is_busy(rig: WebR
     page.say("say", text="forward 1 m")
     rig.session.wait_for("say", "forward 1 m")
     is_done = threading.Event()
-    rig.server.call(lambda: time.sleep(BUSY_S))
-    rig.server.call(is_done.set)
+    rig.call(lambda: time.sleep(BUSY_S))
+    rig.call(is_done.set)
     assert is_done.wait(PATIENCE_S)
     assert GONE not in rig.session.log
     page.freeze()

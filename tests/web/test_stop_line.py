@@ -60,7 +60,7 @@ def test_a_stop_is_out_though_the_event_loop_of_the_page_is_blocked(rig: WebRig,
             if not busy:
                 is_done.wait(BLOCKED_S)
 
-    rig.server.call(block)
+    rig.call(block)
     assert is_blocked.wait(1.0)
     took_s = []
     for _ in range(20):

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from chatrobot.cli.console.words import Words
 from chatrobot.core import events
 from chatrobot.core.events import Event
-from chatrobot.core.geometry import Twist
-from chatrobot.core.reason import fixed
 from chatrobot.dialogue.programs.draft import body, headline
-from chatrobot.dialogue.replies import describe_left
+from chatrobot.dialogue.replies import describe_left, describe_twist
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.shown import folded_plan
 
@@ -30,7 +27,6 @@ _MARKS: dict[events.Outcome, tuple[str, str]] = {
     "failed": ("✗", "bold red"),
 }
 _FINDINGS = {"refuse": ("✗", "red"), "warn": ("!", "yellow"), "note": ("·", "dim")}
-_LEAST_MPS = 0.005
 
 
 class Line(NamedTuple):
@@ -83,7 +79,7 @@ class Narrator:
             case events.ProgramLog():
                 yield Line(f"| {event.text}", "dim")
             case events.Limited() if event.turn:  # a hand at a stick, or another program, sees what it does
-                asked, sent = self._twist(event.asked), self._twist(event.sent)
+                asked, sent = (describe_twist(twist, self._words.say) for twist in (event.asked, event.sent))
                 yield _marked("!", "yellow", self._words.say("limited_to", asked=asked, sent=sent))
             case events.Said():
                 yield _marked("»", "magenta", event.text, "bold")
@@ -186,12 +182,3 @@ class Narrator:
         if event.has_moved:
             pose, duration = self._words.pose(event.pose), f"{event.duration_s:.1f}"
             yield _marked("", "", self._words.say("measured", pose=pose, duration=duration), "dim")
-
-    def _twist(self, twist: Twist) -> str:
-        parts = []
-        if twist.speed_mps >= _LEAST_MPS:
-            parts.append(self._words.say("speed", speed=f"{twist.speed_mps:.2f}"))
-        rate = fixed(math.degrees(twist.wz_radps), 0)
-        if float(rate):
-            parts.append(self._words.say("rate", rate=rate))
-        return " · ".join(parts) or self._words.say("speed", speed="0")

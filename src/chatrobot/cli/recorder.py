@@ -52,8 +52,7 @@ def require_extra() -> None:
     Raises:
         UsageError: they cannot.
     """
-    missing = [name for name in _LIBRARIES if find_spec(name) is None]
-    if missing:
+    if missing := _missing():
         raise UsageError(f"recordings are not installed: {missing[0]} is missing", allowed=EXTRA)
 
 
@@ -179,15 +178,15 @@ def _is_wanted(args: argparse.Namespace, *, unasked: bool) -> bool:
         UsageError: it cannot be recorded as chosen.
     """
     if args.record is None:
-        return unasked and not args.no_record and not any(map(_is_missing, _LIBRARIES))
+        return unasked and not args.no_record and not _missing()
     if args.no_record:
         raise UsageError("either of both", where="--record --no-record", allowed="leave one out")
     require_extra()
     return True
 
 
-def _is_missing(library: str) -> bool:
-    return find_spec(library) is None
+def _missing() -> list[str]:
+    return [library for library in _LIBRARIES if find_spec(library) is None]
 
 
 def _free_path(args: argparse.Namespace, setup: Setup) -> Path:

@@ -69,7 +69,6 @@ class _Screen:
 
     def __init__(self, output: Output, recording: Recording) -> None:
         meta = recording.meta
-        self._output = output
         self._language: LanguageCode = language_of_tags(meta.get("language", ""))
         self._printer = HumanPrinter(output, shows_pose=True)
         self._motion_view = MotionView()

@@ -79,14 +79,14 @@ def strict_json(data: Any, *, is_compact: bool = False) -> str:
     try:
         return json.dumps(data, ensure_ascii=False, allow_nan=False, separators=separators)
     except ValueError:
-        return json.dumps(_finite(data), ensure_ascii=False, separators=separators)
+        return json.dumps(finite(data), ensure_ascii=False, separators=separators)
 
 
-def _finite(value: Any) -> Any:
+def finite(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {key: _finite(item) for key, item in value.items()}
+        return {key: finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
+        return [finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -102,13 +102,10 @@ def event_from_json(data: Mapping[str, Any]) -> Event:
     values = {key: value for key, value in data.items() if key != "event"}
     annotations = _annotations(kind)
     try:
-        return kind(**{key: _READERS.get(annotations[key], _as_is)(value) for key, value in values.items()})
+        readers = {key: _READERS.get(annotations[key], lambda found: found) for key in values}
+        return kind(**{key: readers[key](value) for key, value in values.items()})
     except (KeyError, TypeError) as error:
         raise ValueError(f"not a {kind.name} event: {error}") from error
-
-
-def _as_is(value: Any) -> Any:
-    return value
 
 
 def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:

@@ -20,8 +20,9 @@ from chatrobot.language.context import Place
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
-from chatrobot.plan.ring import RING_MARGIN_M, Point, ring_around
+from chatrobot.plan.ring import RING_MARGIN_M, ring_around
 from chatrobot.robots.profile import RobotProfile
+from chatrobot.sim.shapes import Point
 from chatrobot.sim.world import World
 
 if TYPE_CHECKING:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import LEAST_M, LEAST_RAD, Event, Finished, Paused, Result
-from chatrobot.core.geometry import wrap_angle
+from chatrobot.core.geometry import Twist, wrap_angle
 from chatrobot.core.reason import Reason, fixed, one_line
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
@@ -177,6 +177,21 @@ def _turned(turned_deg: float, language: str) -> str:
     shown = fixed(turned_deg, 1)
     code = "turned" if not float(shown) else "turned_left" if turned_deg > 0.0 else "turned_right"
     return say(language, code, turned_deg=shown.lstrip("-"))
+
+
+_LEAST_MPS = 0.005
+"""A slower velocity is told as none."""
+
+
+def describe_twist(twist: Twist, say: Callable[..., str]) -> str:
+    """Return how fast it goes and turns, in the words `speed` and `rate` of a face."""
+    parts = []
+    if twist.speed_mps >= _LEAST_MPS:
+        parts.append(say("speed", speed=f"{twist.speed_mps:.2f}"))
+    rate = fixed(math.degrees(twist.wz_radps), 0)
+    if float(rate):
+        parts.append(say("rate", rate=rate))
+    return " · ".join(parts) or say("speed", speed="0")
 
 
 PARTING = "parting"

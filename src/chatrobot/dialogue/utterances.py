@@ -21,6 +21,7 @@ from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.program_request import read_request
 from chatrobot.link.envelope import QUEUE_LIMIT
 from chatrobot.plan.steps import Remember, Step
 
@@ -277,7 +278,7 @@ class EarlyAnswers:
             kept = authoring.kept(text, "")
         except NotWrittenError:
             return True
-        return kept is not None or authoring.request(text, is_asked_for=False) is not None
+        return kept is not None or read_request(text, is_asked_for=False) is not None
 
 
 def _teaches(meant: Interpretation) -> bool:

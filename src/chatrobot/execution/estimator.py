@@ -31,15 +31,16 @@ class Rest:
     """
 
     def __init__(self) -> None:
-        self._told_since_s = -math.inf
+        self.told_since_s = -math.inf
+        """Since when it is told to stand; infinite where it was told to move, minus infinity if never."""
         self._still_since_s = math.inf
 
     def note_command(self, *, is_zero: bool, now_s: float) -> None:
         """Note that the robot has just been told to stand, or to move."""
         if not is_zero:
-            self._told_since_s = math.inf
-        elif self._told_since_s == math.inf:
-            self._told_since_s = now_s
+            self.told_since_s = math.inf
+        elif self.told_since_s == math.inf:
+            self.told_since_s = now_s
 
     def see(self, message: Odometry) -> None:
         """Take what its wheels do."""
@@ -50,14 +51,9 @@ class Rest:
             self._still_since_s = message.stamp_s
 
     @property
-    def told_since_s(self) -> float:
-        """Return since when it is told to stand; infinite where it was told to move, minus infinity if never."""
-        return self._told_since_s
-
-    @property
     def since_s(self) -> float:
         """Return since when it has been at rest, once the body was still, too; infinite where it moves."""
-        return max(self._told_since_s + SETTLED_S, self._still_since_s + UNROLLED_S)
+        return max(self.told_since_s + SETTLED_S, self._still_since_s + UNROLLED_S)
 
 
 HISTORY = 100

@@ -20,7 +20,22 @@ if TYPE_CHECKING:
     from chatrobot.motion.safety.watchdog import SimulatedGuard
 
 
-class InProcessLink(MotionLink):
+class _End(MotionLink):
+    """One client's end of the link."""
+
+    is_simulated = True
+
+    def __init__(self, source: str, number: int) -> None:
+        self.sender = Sender(source)
+        self.line = ClientLine(number)
+        self.events: deque[Event] = deque()
+        self._closed = False
+
+    def wake(self) -> None:
+        """Nothing waits here: simulated time passes in the caller's thread."""
+
+
+class InProcessLink(_End):
     """Motion in the caller's process, on a virtual clock that runs only while someone waits for an event.
 
     Args:
@@ -29,8 +44,6 @@ class InProcessLink(MotionLink):
         guard_wire: the guard's own end of the wire.
         cmd_vel_topic: where the guard sends its zeros.
     """
-
-    is_simulated = True
 
     def __init__(
         self,
@@ -43,17 +56,15 @@ class InProcessLink(MotionLink):
         cmd_vel_topic: str,
         source: str = "console",
     ) -> None:
-        self._end = _End(source, ClientLine(0))
-        self._ends = [self._end]
+        super().__init__(source, 0)
+        self._ends: list[_End] = [self]
         self._motion = build(self._tell)
         self._clock = clock
         self._advance = advance
         self._guard = guard
         self._guard_wire = guard_wire
         self._cmd_vel_topic = cmd_vel_topic
-        self._sender = self._end.sender
         self._stepping = threading.RLock()
-        self._closed = False
         self._motion.start(wire)
         self.send("hello")
 
@@ -67,12 +78,13 @@ class InProcessLink(MotionLink):
             raise LinkError(
                 "this robot's second line is taken: end its session and start again to get another"
             )
-        end = _End(source, ClientLine(1))
-        self._ends.append(end)
-        return SecondInProcessLink(self, end)
+        second = SecondInProcessLink(self, source)
+        self._ends.append(second)
+        second.send("hello")
+        return second
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        self.send_from(self._end, word, turn, **payload)
+        self.send_from(self, word, turn, **payload)
 
     def send_from(self, end: _End, word: Word, turn: int = 0, **payload: Any) -> None:
         """Say a word in the name of the client at that end."""
@@ -80,11 +92,11 @@ class InProcessLink(MotionLink):
         if envelope is None:
             return
         if (ordered := end.line.ordered(envelope)) is not None:
-            self._end.events.append(ordered)
+            self.events.append(ordered)
         self._motion.receive(envelope)
 
     def next_event(self, timeout_s: float) -> Event | None:
-        return self.next_event_at(self._end, timeout_s)
+        return self.next_event_at(self, timeout_s)
 
     def next_event_at(self, end: _End, timeout_s: float) -> Event | None:
         """Return the next event for the client at that end; time passes meanwhile."""
@@ -93,9 +105,6 @@ class InProcessLink(MotionLink):
             self.step()
         return end.events.popleft() if end.events else None
 
-    def wake(self) -> None:
-        """Nothing waits here: simulated time passes in the caller's thread."""
-
     def step(self) -> None:
         """One period: the sources beat, Motion ticks, the robot moves. Threads take turns."""
         with self._stepping:
@@ -103,7 +112,7 @@ class InProcessLink(MotionLink):
                 self.send("beat", age_s=self.age_s())
             for end in self._ends[1:]:
                 if end.beats:
-                    self.send_from(end, "beat")
+                    end.send("beat")
             self._motion.tick()
             if self._guard.must_halt():
                 self._guard_wire.publish(self._cmd_vel_topic, ZERO)
@@ -117,16 +126,7 @@ class InProcessLink(MotionLink):
         while (left_s := until_s - self._clock.now_s()) > TICK_S / 2.0:
             event = self.next_event(left_s)
             notices += [event] if isinstance(event, Notice) else []
-        self._end.events.extendleft(reversed(notices))
-
-    def abandon(self) -> None:
-        self.beats = False
-        self._closed = True
-        self._motion.lose(self._sender.lease)
-
-    def abandon_second(self, end: _End) -> None:
-        """The client at that end is gone without a goodbye."""
-        self._motion.lose_second(end.sender.lease)
+        self.events.extendleft(reversed(notices))
 
     def close(self) -> None:
         if self._closed:
@@ -142,49 +142,20 @@ class InProcessLink(MotionLink):
                 end.events.append(heard)
 
 
-class _End:
-    """What the link keeps for one client."""
-
-    def __init__(self, source: str, line: ClientLine) -> None:
-        self.sender = Sender(source)
-        self.line = line
-        self.events: deque[Event] = deque()
-        self.beats = True
-
-
-class SecondInProcessLink(MotionLink):
+class SecondInProcessLink(_End):
     """The link of another client to the Motion of an `InProcessLink`; whoever waits for an event lets time pass."""
 
-    is_simulated = True
-
-    def __init__(self, first: InProcessLink, end: _End) -> None:
-        self._first, self._end = first, end
-        self._closed = False
-        self.send("hello")
-
-    @property
-    def beats(self) -> bool:
-        """Whether the source keeps its lease."""
-        return self._end.beats
-
-    @beats.setter
-    def beats(self, beats: bool) -> None:
-        self._end.beats = beats
+    def __init__(self, first: InProcessLink, source: str) -> None:
+        super().__init__(source, 1)
+        self._first = first
 
     def send(self, word: Word, turn: int = 0, **payload: Any) -> None:
-        self._first.send_from(self._end, word, turn, **payload)
+        self._first.send_from(self, word, turn, **payload)
 
     def next_event(self, timeout_s: float) -> Event | None:
-        return self._first.next_event_at(self._end, timeout_s)
-
-    def wake(self) -> None:
-        """Nothing waits here, as at the first link."""
-
-    def abandon(self) -> None:
-        self._closed, self._end.beats = True, False
-        self._first.abandon_second(self._end)
+        return self._first.next_event_at(self, timeout_s)
 
     def close(self) -> None:
         if not self._closed:
-            self._closed, self._end.beats = True, False
+            self._closed, self.beats = True, False
             self.send("goodbye")

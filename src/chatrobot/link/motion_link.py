@@ -51,10 +51,6 @@ class MotionLink(Protocol):
         """Have a waiting `next_event` return None at once."""
         ...
 
-    def abandon(self) -> None:
-        """Leave without a goodbye, as a crash would: Motion stops the robot at once."""
-        ...
-
     def close(self) -> None:
         """Say goodbye, let what is queued be done, and end. Closing twice does no harm."""
         ...

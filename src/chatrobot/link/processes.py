@@ -33,21 +33,17 @@ class MotionProcess:
     @classmethod
     def start(
         cls,
-        wire: str,
+        wires: Sequence[str],
         profile: str,
         world: str,
         budget: MotionBudget = NOT_CHOSEN,
         *,
         open_loop: bool = False,
-    ) -> MotionProcess:
-        """`budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop."""
-        return cls.start_for([wire], profile, world, budget, open_loop=open_loop)[0]
-
-    @classmethod
-    def start_for(
-        cls, wires: Sequence[str], profile: str, world: str, budget: MotionBudget, *, open_loop: bool
     ) -> list[MotionProcess]:
-        """Start one process for the robots on those wires, all of one profile. A single one has a second line."""
+        """Start one process for the robots on those wires, all of one profile. A single one has a second line.
+
+        `budget` is the motion budget as the command line chose it, `open_loop` that it chose open loop.
+        """
         is_shared = len(wires) > 1
         process, lines = spawn_with_lines(
             "chatrobot.motion.process",
@@ -103,7 +99,7 @@ class Processes:
             *(word for wire in wires for word in ("--socket", wire)),
             *("--profile", profile, "--world", world, "--sim", sim),
         )
-        motions = MotionProcess.start_for(wires, profile, world, budget, open_loop=open_loop)
+        motions = MotionProcess.start(wires, profile, world, budget, open_loop=open_loop)
         return [cls(path, robot, motion) for path, motion in zip(paths, motions)]
 
     def end(self) -> None:

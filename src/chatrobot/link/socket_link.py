@@ -100,11 +100,6 @@ class SocketLink(EventQueue, MotionLink):
         except OSError as error:
             raise LinkError("Motion is gone") from error
 
-    def abandon(self) -> None:
-        self._closed.set()
-        with contextlib.suppress(OSError):
-            self._line.shutdown(socket.SHUT_RDWR)
-
     def close(self) -> None:
         if self._closed.is_set():
             return

@@ -161,9 +161,6 @@ class TopicLink(EventQueue, MotionLink):
             self._in_flight[turn] = control
         self._publish(self._sender.envelope(word, turn, **payload))
 
-    def abandon(self) -> None:
-        self._closed.set()
-
     def close(self) -> None:
         if self._closed.is_set():
             return

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from mcp.server.mcpserver import MCPServer
 from mcp_types import ToolAnnotations
 
 from chatrobot import __version__
+from chatrobot.core.event import strict_json
 from chatrobot.dialogue.llm.prompt import robot_line, step_lines
 from chatrobot.mcp_server.robot import AgentRobot
 from chatrobot.mcp_server.surroundings import map_of, motion_told
-from chatrobot.mcp_server.told import finite, pose_told
+from chatrobot.mcp_server.told import pose_told
 from chatrobot.mcp_server.tools import Tools
 from chatrobot.robots.profile import RobotProfile
 
@@ -103,7 +103,7 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
         moves = motion_told(record.telemetry, record.heard_at_s)
         session = robot.session
         is_paused = session is not None and session.is_paused
-        return _json(
+        return strict_json(
             {**moves, "connected": session is not None, "paused": is_paused, "happened": record.happened()}
         )
 
@@ -115,7 +115,9 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
     )
     async def world_map() -> str:
         connection = await robot.ready()
-        return _json(map_of(connection, record.telemetry.pose if record.telemetry is not None else None))
+        return strict_json(
+            map_of(connection, record.telemetry.pose if record.telemetry is not None else None)
+        )
 
     @server.resource(
         "chatrobot://last",
@@ -126,7 +128,7 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
     def last() -> str:
         result = record.last
         told = {**result.to_json(), "ended_at": pose_told(result.pose)} if result is not None else None
-        return _json({"result": told, "way": record.way(), "edited_by_person": record.edit})
+        return strict_json({"result": told, "way": record.way(), "edited_by_person": record.edit})
 
 
 def _add_prompt(server: MCPServer[Any], profile: RobotProfile) -> None:
@@ -137,7 +139,3 @@ def _add_prompt(server: MCPServer[Any], profile: RobotProfile) -> None:
         return _PLAN_LANGUAGE.format(
             steps=step_lines(profile), robot=robot_line(profile), task=f"\n\nThe task: {task}" if task else ""
         )
-
-
-def _json(data: Any) -> str:
-    return json.dumps(finite(data), ensure_ascii=False)

@@ -11,6 +11,7 @@ from typing import Any
 
 from mcp_types import CallToolResult, ContentBlock, TextContent
 
+from chatrobot.core.event import finite
 from chatrobot.core.events import ProgramWritten, Rehearsed, Result
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import Reason, fixed
@@ -268,12 +269,3 @@ def _in_words(rehearsed: Rehearsed, language: str) -> str:
         f"{in_words(told['end'])}."
     )
     return " ".join([way, *found])
-
-
-def finite(value: Any) -> Any:
-    """Return `value` in strict JSON: what is not finite becomes null."""
-    if isinstance(value, dict):
-        return {key: finite(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

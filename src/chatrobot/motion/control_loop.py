@@ -16,7 +16,7 @@ import threading
 import time
 from collections.abc import Sequence
 from operator import itemgetter
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from chatrobot.core.clock import PRESENCE_S, TICK_S
 from chatrobot.core.errors import WireError
@@ -25,6 +25,9 @@ from chatrobot.core.wiring import Wiring
 from chatrobot.motion.safety.stop import remove_stop_socket, serve_stop
 from chatrobot.wire.local import LocalWire
 from chatrobot.wire.wire import Wire
+
+if TYPE_CHECKING:
+    from chatrobot.motion.runner import MotionRunner
 
 SWITCH_INTERVAL_S = 0.0005
 """How long a thread may keep the interpreter: the reader must get in between the lines of a rehearsal."""
@@ -39,41 +42,6 @@ _FOUND = ("standing", "unseen", "waiting", "moving")
 """What `chatrobot stop` is told of many robots is what the one that is farthest from standing was found doing."""
 
 
-class Driven(Protocol):
-    """One robot of this process, as the control loop sees it."""
-
-    @property
-    def has_left(self) -> bool:
-        """True once all is done, and nobody is there who may ask for more."""
-        ...
-
-    def tick(self) -> None:
-        """Do one period. Raises WireError where the robot is gone for good."""
-
-    def look_out(self) -> None:
-        """See whether the wire is up and who else drives, every `PRESENCE_S`, in a thread of its own."""
-
-    def thaw(self) -> None:
-        """Void what drove before a signal stopped this process. For a signal handler."""
-
-    def stop(self) -> str:
-        """Stop, from any thread; what was found: `moving`, `waiting`, `standing` or `unseen`.
-
-        Raises:
-            WireError: the robot is gone.
-        """
-        ...
-
-    def leave(self) -> None:
-        """Say goodbye to the guard, in order."""
-
-    def give_up(self) -> None:
-        """End what was under way as failed: the wire is closed for good."""
-
-    def close(self) -> None:
-        """End what this process has started for it."""
-
-
 class ControlLoop:
     """See the module. Made before the robots, which `wake` it; it takes its thread's priorities at once."""
 
@@ -85,10 +53,10 @@ class ControlLoop:
         self._wires: dict[int, LocalWire] = {}
         self._poller = select.epoll()
         self._poller.register(self._wake, select.EPOLLIN)
-        self._due_s: dict[Driven, float] = {}
-        self._woken: set[Driven] = set()
+        self._due_s: dict[MotionRunner, float] = {}
+        self._woken: set[MotionRunner] = set()
 
-    def wake(self, robot: Driven) -> None:
+    def wake(self, robot: MotionRunner) -> None:
         """Have that robot ticked at once. From any thread."""
         self._woken.add(robot)
         os.eventfd_write(self._wake, 1)
@@ -101,7 +69,7 @@ class ControlLoop:
         self._poller.register(wire, select.EPOLLIN)
         return wire
 
-    def run(self, robots: Sequence[Driven]) -> None:
+    def run(self, robots: Sequence[MotionRunner]) -> None:
         """Tick until all have left.
 
         Raises:
@@ -151,14 +119,14 @@ class ControlLoop:
             if wire.is_over:
                 self._poller.unregister(descriptor)
 
-    def _next(self) -> Driven | None:
+    def _next(self) -> MotionRunner | None:
         """The robot that is woken, or due first; None where none is."""
         if self._woken:
             return self._woken.pop()
         robot, due_s = min(self._due_s.items(), key=itemgetter(1))
         return robot if time.monotonic() >= due_s else None
 
-    def _tick(self, robot: Driven) -> None:
+    def _tick(self, robot: MotionRunner) -> None:
         if robot not in self._due_s:
             return  # it has left
         self._woken.discard(robot)
@@ -171,19 +139,19 @@ class ControlLoop:
             self._due_s[robot] = max(due_s, now_s - TICK_S) + TICK_S
 
 
-def _thaw(robots: Sequence[Driven]) -> None:
+def _thaw(robots: Sequence[MotionRunner]) -> None:
     for robot in robots:
         robot.thaw()
 
 
-def _look_out(robots: Sequence[Driven]) -> None:
+def _look_out(robots: Sequence[MotionRunner]) -> None:
     while True:
         for robot in robots:
             robot.look_out()
             time.sleep(PRESENCE_S / len(robots))
 
 
-def _stop(robots: Sequence[Driven]) -> str:
+def _stop(robots: Sequence[MotionRunner]) -> str:
     found = []
     for robot in robots:
         with contextlib.suppress(WireError):  # the others are stopped all the same

@@ -27,8 +27,8 @@ from chatrobot.motion.goal_queue import (
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
-from chatrobot.motion.programs.execution import ProgramSandbox
 from chatrobot.motion.programs.goal import ProgramGoal
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.stop import Stops
 
 ODOMETRY_WAIT_S = 2.0
@@ -43,7 +43,7 @@ class GoalServer:
     _goal_queue: GoalQueue
     _executor: PlanExecutor
     _planner: Planner
-    _programs: ProgramSandbox
+    _programs: ProgramHost
     _budgets: Budgets
     _stops: Stops
     _inbox: Inbox

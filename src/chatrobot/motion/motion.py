@@ -25,7 +25,7 @@ from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.obstacles import Obstacles
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
-from chatrobot.motion.programs.execution import NoSandbox, ProgramSandbox
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.relayed_velocities import RelayedVelocities
 from chatrobot.motion.safety.stop import KEEPING, PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
@@ -40,7 +40,7 @@ class Motion:
     Args:
         planner: makes `Planned` from plan text: parsed, lowered, rehearsed.
         background: runs a function off the control thread; a simulation runs it at once.
-        programs: where programs are rehearsed and run; None refuses them.
+        programs: where programs are rehearsed and run.
         emit: takes events; called on the control thread only.
         releasers: the sources that may release an emergency stop.
     """
@@ -54,14 +54,14 @@ class Motion:
         guard: GuardLink,
         emit: Callable[[Event], None],
         background: Callable[[Callable[[], None]], None],
+        programs: ProgramHost,
         releasers: Collection[str] = RELEASERS,
-        programs: ProgramSandbox | None = None,
     ) -> None:
         self._profile = profile
         self._clock = clock
         self._guard = guard
         self._emit = emit
-        self._programs = programs = programs or NoSandbox()
+        self._programs = programs
         epoch = StopEpoch()
         transport = WireTransport(wire, profile.wiring, epoch)
         self._governor = Governor(profile, epoch, planner.allowed_area, releasers)

@@ -20,8 +20,9 @@ from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
 from chatrobot.motion.governed_motion import GoalExecution
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.programs.clocks import LiveProgram
-from chatrobot.motion.programs.execution import ProgramExecution, ProgramSandbox
+from chatrobot.motion.programs.execution import ProgramExecution
 from chatrobot.motion.programs.goal import ProgramGoal
+from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock
 
@@ -38,7 +39,7 @@ class PlanExecutor:
     _robot: GovernedRobot
     _interlock: Interlock
     _stops: Stops
-    _programs: ProgramSandbox
+    _programs: ProgramHost
     _inbox: Inbox
     _clock: Clock
     _outcomes: OutcomeQueue

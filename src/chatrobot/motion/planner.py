@@ -12,7 +12,7 @@ from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
-from chatrobot.governor.kernel import Kernel, make_kernel
+from chatrobot.governor.kernel import make_kernel
 from chatrobot.motion.budgets import Extent
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAroundObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
@@ -97,12 +97,9 @@ class Planned:
         if self.is_endless:
             return Extent()
         length_m = max(0.0, self.length_m - sum(self._unknown_lengths_m))
-        return Extent(length_m, 0.0 if self.is_open_ended else self._driving_s)
-
-    @property
-    def _driving_s(self) -> float:
-        """How long it drives, without its waits."""
-        return driving_s(self.shown.path) if self.shown is not None else 0.0
+        if self.is_open_ended or self.shown is None:
+            return Extent(length_m, 0.0)
+        return Extent(length_m, driving_s(self.shown.path))
 
     @property
     def _unknown_lengths_m(self) -> list[float]:
@@ -197,11 +194,6 @@ class Planner:
     def world(self) -> World:
         """Return what is known of the surroundings."""
         return self._known[0]
-
-    @property
-    def kernel(self) -> Kernel:
-        """Return the governor's own arithmetic, which rehearsals use, too."""
-        return self._kernel
 
     @property
     def allowed_area(self) -> Sequence[Point] | None:

@@ -128,8 +128,8 @@ class MotionRunner:
             self._guard,
             self._emit,
             plan_later,
-            releasers,
             self.programs,
+            releasers,
         )
 
     def _open(self, said: list[Reason]) -> None:

@@ -20,7 +20,8 @@ FullName = Callable[[str], str]
 
 def is_complete(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> bool:
     """Return whether the robot is there as its profile says: velocities, odometry, gyro and scan."""
-    told = ((wiring.odom_topic, _odom_type(wiring)), (wiring.imu_topic, IMU), (wiring.scan_topic, SCAN))
+    odom_type = TURTLE_POSE if wiring.odom_type == "turtlesim/Pose" else ODOMETRY
+    told = ((wiring.odom_topic, odom_type), (wiring.imu_topic, IMU), (wiring.scan_topic, SCAN))
     wanted = {Endpoint(full_name(topic), type_name, "publishes") for topic, type_name in told if topic}
     wanted.add(Endpoint(full_name(wiring.cmd_vel_topic), _cmd_vel_type(wiring), "listens"))
     return wanted <= set(endpoints)
@@ -104,10 +105,6 @@ def _fit_odometry(wiring: Wiring, sensors: _Sensors, topic: str) -> tuple[Wiring
 
 def _cmd_vel_type(wiring: Wiring) -> str:
     return TWIST_STAMPED if wiring.cmd_vel_type == "TwistStamped" else TWIST
-
-
-def _odom_type(wiring: Wiring) -> str:
-    return TURTLE_POSE if wiring.odom_type == "turtlesim/Pose" else ODOMETRY
 
 
 def hints(wiring: Wiring, endpoints: Iterable[Endpoint], full_name: FullName) -> list[Reason]:

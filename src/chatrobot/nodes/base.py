@@ -206,7 +206,8 @@ class BaseNode:
         if isinstance(event, events.Interpreted) and event.plan_text:
             self._say(event.reply)
         elif isinstance(event, events.Result):
-            if not (self._session.is_moving and event.reply in _bare_stops(language)):
+            bare_stops = [say(language, code) for code in ("stopped_now", "stopped_now_unmeasured")]
+            if not (self._session.is_moving and event.reply in bare_stops):
                 # Else the end of what was stopped tells it, once the robot stands.
                 self._say(event.reply, _SEVERITY_OF_RESULTS.get(event.outcome, "info"))
         elif isinstance(event, events.Said):
@@ -234,8 +235,3 @@ class BaseNode:
     def _publish(self, topic: str, text: str) -> None:
         with contextlib.suppress(WireError):  # gone: the link tells
             self._wire.publish(topic, Text(text))
-
-
-def _bare_stops(language: str) -> tuple[str, ...]:
-    """List what is said of a stop that tells no more than that it came."""
-    return tuple(say(language, code) for code in ("stopped_now", "stopped_now_unmeasured"))

@@ -98,14 +98,13 @@ class Finding:
     """Something to know about a plan before it runs; one `refuse` and it does not run.
 
     `index` is the path of the step in the plan that was rehearsed, from 0; `t_s` is counted from the start of the
-    plan; `where` is the predicted pose at that moment, in the odom frame.
+    plan.
     """
 
     severity: Severity
     reason: Reason
     index: tuple[int, ...] = ()
     t_s: float = 0.0
-    where: Pose = ORIGIN
 
 
 _SLACK = 1.0 + 1e-9  # a limit said in other units (36 km/h) must not fail by rounding

@@ -53,16 +53,6 @@ KNOWN_WITHIN_M = 0.15
 """What was seen so near to a known obstacle is that obstacle."""
 
 
-@dataclass(frozen=True)
-class StepEnd:
-    """Predicts where and when one step (repeats counted out) ends."""
-
-    index: tuple[int, ...]
-    number: int
-    t_s: float
-    pose: Pose
-
-
 @dataclass(frozen=True, eq=False)
 class RehearsedPath:
     """Predicts where a robot would be at every moment, and holds what was found about that.
@@ -105,12 +95,7 @@ class Rehearsal(RehearsedPath):
 
     plan: Plan
     context: LoweringContext
-    steps: tuple[StepEnd, ...]
     possible: Plan | None = None
-
-    def walk(self) -> CoreWalk:
-        """Walk the very motions that were rehearsed, for the executor."""
-        return CoreWalk(self.plan, self.context)
 
 
 def rehearse(
@@ -142,7 +127,7 @@ def rehearse(
     context = LoweringContext(profile, start_pose, plan_start or start_pose, route_planner)
     rounded = Rounded(plan) if profile.can_turn_on_the_spot else round_corners(plan, profile)
     run = _Run(rounded.plan, context, world, governor, seen, most)
-    run.findings += [replace(finding, where=start_pose) for finding in rounded.findings]
+    run.findings += rounded.findings
     if not any(finding.severity == "refuse" for finding in run.findings):
         run.drive()
     return run.result()
@@ -169,7 +154,6 @@ class _Run:
         self.governor = GovernorCheck(governor)
         self.findings: list[Finding] = []
         self.legs: list[Leg] = []
-        self.steps: list[StepEnd] = []
         self.t_s = 0.0
         self.possible: Plan | None = None
         self._blocked_row = math.inf
@@ -178,7 +162,7 @@ class _Run:
         walk = CoreWalk(self.plan, self.context)
         for item in walk:
             if isinstance(item, Impossible):
-                self._find("refuse", item.reason, item.index, walk.pose)
+                self._find("refuse", item.reason, item.index)
                 self.possible = nearest_part(self.plan, self.context, item)
                 break
             if not self._is_within_bounds(item):
@@ -188,8 +172,6 @@ class _Run:
             elif isinstance(item.motion, Pause):
                 times = self.t_s + tick_times(item.motion.duration_s, PAUSE_SPACING_S)
                 self._add(item, np.column_stack((times, np.tile(item.start, (len(times), 1)))))
-            if item.last:
-                self.steps.append(StepEnd(item.index, item.number, self.t_s, walk.pose))
         self._sweep()
 
     def result(self) -> Rehearsal:
@@ -197,10 +179,10 @@ class _Run:
         path = np.concatenate(rows)
         length_m = float(np.hypot(*np.diff(path[:, 1:3], axis=0).T).sum())
         findings = tuple(sorted(self.findings, key=lambda finding: finding.t_s))
-        return Rehearsal(path, length_m, findings, self.plan, self.context, tuple(self.steps), self.possible)
+        return Rehearsal(path, length_m, findings, self.plan, self.context, self.possible)
 
-    def _find(self, severity: Severity, reason: Reason, index: tuple[int, ...], where: Pose) -> None:
-        self.findings.append(Finding(severity, reason, index, self.t_s, where))
+    def _find(self, severity: Severity, reason: Reason, index: tuple[int, ...]) -> None:
+        self.findings.append(Finding(severity, reason, index, self.t_s))
 
     def _is_within_bounds(self, item: PlannedMotion) -> bool:
         if isinstance(item.motion, RampedTwist):
@@ -208,11 +190,11 @@ class _Run:
         else:
             duration_s = item.motion.duration_s if isinstance(item.motion, Pause) else 0.0
         if self.t_s + duration_s > MAX_DURATION_S:
-            self._find("refuse", too_long(self.t_s + duration_s), item.index, item.start)
+            self._find("refuse", too_long(self.t_s + duration_s), item.index)
             return False
         distance_m = item.end.distance_to(self.context.pose)
         if distance_m > MAX_EXTENT_M:
-            self._find("refuse", too_far(distance_m), item.index, item.start)
+            self._find("refuse", too_far(distance_m), item.index)
             return False
         return True
 
@@ -227,11 +209,11 @@ class _Run:
             walk.ended_at(segment.end_pose)
         segment = self._slowed(segment)
         if motion.asked is not None:
-            self._find("note", limited_reason(motion.asked, motion.twist), item.index, item.start)
+            self._find("note", limited_reason(motion.asked, motion.twist), item.index)
         changed = self.governor.changed(segment)
         if changed is not None:
             sent, rows = changed
-            self._find("note", limited_reason(motion.twist, sent), item.index, item.start)
+            self._find("note", limited_reason(motion.twist, sent), item.index)
             walk.ended_at(pose_of(rows[-1]))
         else:
             times = tick_times(segment.total_s, TICK_S)
@@ -265,7 +247,7 @@ class _Run:
             free_m = min(free_m, self.seen.free_ahead_m(segment.start, direction_rad))
         free_m = math.inf if free_m >= reach_m else free_m
         if math.isinf(free_m):
-            self._find("note", Reason("no_obstacle_known", {"distance_m": most_m}), item.index, item.start)
+            self._find("note", Reason("no_obstacle_known", {"distance_m": most_m}), item.index)
             return segment
         hold_s = max(0.0, free_m - distance_m) / twist.speed_mps
         cut = RampedTwist(twist, min(hold_s, segment.ramp.hold_s), segment.motion.ramp_per_s)
@@ -312,9 +294,7 @@ class _Run:
             values["margin_m"] = MARGIN_M
             values.update(obstacle_values(self._names_of(contact)))
         row = rows[contact.row]
-        self.findings.append(
-            Finding("refuse", Reason(code, values), leg.item.index, float(row[0]), pose_of(row))
-        )
+        self.findings.append(Finding("refuse", Reason(code, values), leg.item.index, float(row[0])))
 
     def _names_of(self, contact: Contact) -> tuple[str, ...]:
         """Return the names of what stands there, if it is known."""

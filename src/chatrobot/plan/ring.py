@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 
-Point = tuple[float, float]
+from chatrobot.sim.shapes import Point, side_of
 
 RING_MARGIN_M = 0.12
 """How far a robot keeps from what it drives around."""
@@ -42,14 +42,10 @@ def convex_hull(points: Iterable[Point]) -> list[Point]:
 def _chain(ordered: Sequence[Point]) -> list[Point]:
     chain: list[Point] = []
     for point in ordered:
-        while len(chain) > 1 and _turns_left(chain[-2], chain[-1], point) <= 0.0:
+        while len(chain) > 1 and side_of(chain[-2], chain[-1], point) <= 0.0:
             chain.pop()
         chain.append(point)
     return chain
-
-
-def _turns_left(a: Point, b: Point, c: Point) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _octagon(hull: Sequence[Point]) -> list[Point]:

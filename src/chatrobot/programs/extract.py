@@ -56,11 +56,11 @@ class _Block:
         return bool(_PLAIN_INFO.fullmatch(self.info)) and (looks_like_it or _parses(self.code))
 
     @property
-    def score(self) -> tuple[int, int]:
-        """Rate how much this looks like the whole program that was asked for; then, how much of one it is."""
+    def score(self) -> int:
+        """Rate how much this looks like the whole program that was asked for."""
         whole = 4 * ("rclpy" in self.code) + 2 * bool(re.search(r"\.publish\(|\bspin(?:_once)?\(", self.code))
         whole += 2 * _parses(self.code) + bool(re.search(r"__main__|^main\(", self.code, re.M))
-        return (whole - 8 * bool(_NOT_A_NODE.search(self.code)), 0)
+        return whole - 8 * bool(_NOT_A_NODE.search(self.code))
 
 
 def extract(reply: str) -> Extracted | None:
@@ -166,7 +166,7 @@ def _chosen(blocks: list[_Block]) -> str:
     """The block that is the program: the last of the best ones, or all of them where none is whole."""
     best = max(block.score for block in blocks)
     whole = [block.code for block in blocks if block.score == best]
-    if len(blocks) == 1 or best[0] >= 8:
+    if len(blocks) == 1 or best >= 8:
         return whole[-1]
     joined = "\n\n".join(block.code for block in blocks if not _NOT_A_NODE.search(block.code))
     return joined if "rclpy" in joined and _parses(joined) else whole[-1]

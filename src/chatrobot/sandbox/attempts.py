@@ -10,7 +10,6 @@ import mmap
 import os
 import socket
 import sys
-from collections.abc import Iterable
 from typing import Any
 
 KINDS = ("files", "network", "processes", "signals", "native", "memory", "threads")
@@ -67,9 +66,3 @@ def _kind(event: str, arguments: tuple[Any, ...], own_pid: int) -> str | None:
     if event in ("os.kill", "os.killpg"):
         return None if arguments[0] == own_pid else "signals"
     return "native" if event in _NATIVE_EVENTS else None
-
-
-def in_order(kinds: Iterable[str]) -> tuple[str, ...]:
-    """Those that are kinds at all, in the order of `KINDS`."""
-    given = set(kinds)
-    return tuple(kind for kind in KINDS if kind in given)

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from chatrobot.core.reason import Reason
-from chatrobot.sandbox import attempts
 from chatrobot.sandbox.libc import pidfd_send_signal
 from chatrobot.sandbox.limits import SandboxLimits, receive_message
 
@@ -109,18 +108,12 @@ class ExitReport:
         signal: the signal that ended it, or None.
         reason: why it was ended, or None if it ended by itself.
         findings: what it tried that the sandbox does not allow; hints for a person, no proof.
-        cpu_s: processor time it used.
-        wall_s: from launch to end.
-        peak_memory_bytes: most memory it had at once, with what it shares with the warm server.
     """
 
     exit_code: int | None
     signal: int | None
     reason: Reason | None
     findings: tuple[Reason, ...] = ()
-    cpu_s: float = 0.0
-    wall_s: float = 0.0
-    peak_memory_bytes: int = 0
 
 
 class SandboxedProcess:
@@ -172,18 +165,6 @@ class SandboxedProcess:
             else:
                 self._report.send(b"kill", socket.MSG_NOSIGNAL | socket.MSG_DONTWAIT)
 
-    def interrupt(self) -> None:
-        """Ctrl-C for the program: KeyboardInterrupt in its main thread, so that its `finally` runs."""
-        with contextlib.suppress(OSError):
-            if self._pidfd is not None:
-                pidfd_send_signal(self._pidfd, signal.SIGINT)
-            else:
-                os.kill(self.pid, signal.SIGINT)
-
-    def poll(self) -> ExitReport | None:
-        """None while it runs."""
-        return self.wait(0.0)
-
     def wait(self, timeout_s: float | None = None) -> ExitReport | None:
         """Block until it has ended, or the time is over: then None."""
         ends_s = None if timeout_s is None else time.monotonic() + timeout_s
@@ -222,10 +203,7 @@ class SandboxedProcess:
             exit_code=said["exit_code"],
             signal=said["signal"],
             reason=self._why(said),
-            findings=tuple(_finding(kind) for kind in attempts.in_order(said["tried"])),
-            cpu_s=said["cpu_s"],
-            wall_s=said["wall_s"],
-            peak_memory_bytes=said["peak_memory_bytes"],
+            findings=tuple(_finding(kind) for kind in said["tried"]),
         )
 
     def _why(self, said: Mapping[str, Any]) -> Reason | None:

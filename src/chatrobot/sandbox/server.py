@@ -189,8 +189,6 @@ def _ended(running: _Running, status: int, usage: resource.struct_rusage) -> dic
         "exit_code": code if code >= 0 else None,
         "signal": -code if code < 0 else None,
         "cpu_s": usage.ru_utime + usage.ru_stime,
-        "peak_memory_bytes": usage.ru_maxrss * 1024,
-        "wall_s": time.monotonic() - running.began_s,
         "was_too_long": running.was_too_long,
         "tried": list(attempts.noted(running.page)),
     }

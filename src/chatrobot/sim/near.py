@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from chatrobot.core.geometry import Pose
-from chatrobot.sim.shapes import Circle, Point, Polygon, Shape
+from chatrobot.sim.shapes import Circle, Point, Polygon, Shape, edges_cross
 from chatrobot.sim.world import Obstacle
 
 
@@ -66,12 +66,7 @@ class Nearness:
 def _cross(one: Sequence[Point], other: Sequence[Point]) -> bool:
     """Return whether any two sides of the two outlines cross."""
     return any(
-        _side(a, b, c) * _side(a, b, d) < 0.0 and _side(c, d, a) * _side(c, d, b) < 0.0
+        edges_cross(a, b, c, d)
         for a, b in zip(one, (*one[1:], one[0]))
         for c, d in zip(other, (*other[1:], other[0]))
     )
-
-
-def _side(a: Point, b: Point, point: Point) -> float:
-    """Return on which side of the line through `a` and `b` a point lies, by its sign."""
-    return (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0])

@@ -84,16 +84,16 @@ def polygon(points: tuple[Point, ...]) -> Polygon:
 
 def _crosses_itself(points: tuple[Point, ...]) -> bool:
     edges = [*zip(points, points[1:] + points[:1])]
-    return any(_cross(*one, *other) for i, one in enumerate(edges) for other in edges[i + 2 :])
+    return any(edges_cross(*one, *other) for i, one in enumerate(edges) for other in edges[i + 2 :])
 
 
-def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether the one line goes through the other; not where they only touch."""
-    return _side(a, b, c) * _side(a, b, d) < 0.0 and _side(c, d, a) * _side(c, d, b) < 0.0
+def edges_cross(a: Point, b: Point, c: Point, d: Point) -> bool:
+    """Return whether the edge from `a` to `b` goes through that from `c` to `d`; not where they only touch."""
+    return side_of(a, b, c) * side_of(a, b, d) < 0.0 and side_of(c, d, a) * side_of(c, d, b) < 0.0
 
 
-def _side(a: Point, b: Point, of: Point) -> float:
-    """Positive on the left of the line from `a` to `b`, negative on the right."""
+def side_of(a: Point, b: Point, of: Point) -> float:
+    """Return a number that is positive on the left of the line from `a` to `b`, negative on the right."""
     return (b[0] - a[0]) * (of[1] - a[1]) - (b[1] - a[1]) * (of[0] - a[0])
 
 

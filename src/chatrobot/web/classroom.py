@@ -199,10 +199,6 @@ class Classroom:
         """Take note that it is gone. Nothing stops by that: the pupils go on."""
         self._faces.pop(face.id, None)
 
-    def drop(self, token: str) -> list[Face]:
-        """Return those who came in with that token, which has been revoked."""
-        return [face for face in list(self._faces.values()) if face.pass_.token == token]
-
     def stop(self, why: str = STOP_BUTTON) -> None:
         """Stop all robots now."""
         self._each(lambda room: room.stop(why))

@@ -70,7 +70,7 @@ class Room:
         self._release = release or connection.session.release
         self.connection, self.session = connection, connection.session
         self._is_simulated = is_simulated
-        self.steering = Steering(self.session, self._has_work, self._tell_lost)
+        self.steering = Steering(self.session, lambda: bool(self._turns), self._tell_lost)
         self.programs = Programs(self.session, connection.profile, post)
         self.camera = CameraView(connection.camera) if connection.camera is not None else None
 
@@ -201,7 +201,7 @@ class Room:
         return self.steering.steerer is face
 
     def _tell_steering(self) -> None:
-        steerer: Any = self.steering.steerer
+        steerer = self.steering.steerer
         by, name = (steerer.id, steerer.name) if steerer is not None else (None, "")
         for face in self._faces.values():
             face.put(told("steering", by=by, name=name, you=steerer is face, may=self.may(face)))
@@ -214,7 +214,7 @@ class Room:
         return [*allowed, "release"] if face.pass_.may_release else allowed
 
     def _hello(self, face: Face, language: LanguageCode) -> dict[str, Any]:
-        steerer: Any = self.steering.steerer
+        steerer = self.steering.steerer
         session, connection = self.session, self.connection
         return {
             "is": "hello",
@@ -245,9 +245,6 @@ class Room:
     def _watch_scans(self) -> None:
         with contextlib.suppress(LinkError):  # nothing is there to be looked at
             self.session.watch_scans(bool(self._faces))
-
-    def _has_work(self) -> bool:
-        return bool(self._turns)
 
     # --- what people do ---
 

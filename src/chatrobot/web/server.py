@@ -11,7 +11,7 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import PurePosixPath
@@ -127,18 +127,6 @@ class WebServer:
         for thread in self._threads:
             thread.start()
         self._watchdog.start()
-
-    def call(self, job: Callable[[], None]) -> None:
-        """Have `job` done by the event loop of the pages."""
-        self._threads[1].loop.call_soon_threadsafe(job)
-
-    def revoke(self, token: str) -> None:
-        """Let nobody in with that token any more, and close what it had opened."""
-        self.access.revoke(token)
-        for room in self.rooms.values():
-            for face in room.drop(token):
-                if isinstance(face, Page):
-                    self.call(face.close)
 
     def close(self, *, stops: bool = True) -> None:
         """Stop the robots, unless somebody else sees to them; tell the pages, and end."""

@@ -11,11 +11,15 @@ import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterable
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import ZERO_TWIST, Twist
 from chatrobot.core.process import wake_promptly
+
+if TYPE_CHECKING:
+    from chatrobot.dialogue.session import Session
+    from chatrobot.web.outbox import Face
 
 LOST_S, LOST_AFAR_S = 0.2, 0.3
 """A page of which nothing is heard for so long is lost, while it steers and something that it said is not done: where
@@ -30,31 +34,6 @@ LOOK_S, STALL_S = 0.02, 0.05
 """How often the watchdog looks; and from when on it was itself kept waiting, so that beats may lie unread."""
 
 
-class Steerable(Protocol):
-    """A `Session`, as far as a stick needs it; from any thread."""
-
-    def steer(self, twist: Twist) -> None:
-        """Ask for a velocity, for a moment: zero lets go."""
-        ...
-
-    def stop(self, why: str = "") -> None:
-        """Stop the robot and drop what was said."""
-        ...
-
-
-class Steerer(Protocol):
-    """Whoever may steer: a page."""
-
-    @property
-    def is_local(self) -> bool:
-        """It is at this machine."""
-        ...
-
-    def unread_bytes(self) -> int:
-        """Return how much has come from it that the event loop has not read yet. From any thread."""
-        ...
-
-
 class Steering:
     """Of one robot; from any thread. Nothing that a stop needs waits here.
 
@@ -65,7 +44,7 @@ class Steering:
 
     def __init__(
         self,
-        robot: Steerable,
+        robot: Session,
         has_work: Callable[[], bool],
         on_lost: Callable[[], None],
         now: Callable[[], float] = time.monotonic,
@@ -75,61 +54,56 @@ class Steering:
         self._on_lost = on_lost
         self._now = now
         self._lock = threading.Lock()
-        self._steerer: Steerer | None = None
+        self.steerer: Face | None = None
         self._beat_s = self._unread_s = 0.0
         self._unread_bytes = 0
         self._is_held = self._was_lost = False
         self._is_watched = True
 
     @property
-    def steerer(self) -> Steerer | None:
-        """Return who steers."""
-        return self._steerer
-
-    @property
     def is_alive(self) -> bool:
         """Tell whether beats of the steering page come: without them nothing that it says would go on."""
-        return self._is_watched and self._now() <= max(self._beat_s, self._unread_s) + self._most_s(
-            LOST_S, LOST_AFAR_S
-        )
+        is_here = self.steerer is None or self.steerer.is_local
+        most_s = LOST_S if is_here else LOST_AFAR_S
+        return self._is_watched and self._now() <= max(self._beat_s, self._unread_s) + most_s
 
-    def take(self, page: Steerer | None, why: str = NOBODY) -> None:
+    def take(self, page: Face | None, why: str = NOBODY) -> None:
         """Have `page` steer, or nobody: the stick is let go, and what was said goes on under the new one, or ends.
 
         `why` is told where it ends. A page that steers already wins nothing: only its beats say that it is there.
         """
         with self._lock:
-            if page is self._steerer:
+            if page is self.steerer:
                 return
             if self._is_held:
                 self._robot.steer(ZERO_TWIST)
-            self._steerer, self._is_held = page, False
+            self.steerer, self._is_held = page, False
             self._beat_s, self._was_lost = self._now() + FIRST_BEAT_S, False
             self._unread_s, self._unread_bytes = 0.0, 0
         if page is None and self._has_work():
             self._robot.stop(why)
 
-    def beat(self, page: Steerer) -> None:
+    def beat(self, page: Face) -> None:
         """Note that something was heard of that page."""
-        if page is self._steerer:
+        if page is self.steerer:
             self._beat_s, self._was_lost = self._now(), False
 
-    def stick(self, page: Steerer, twist: Twist) -> bool:
+    def stick(self, page: Face, twist: Twist) -> bool:
         """Have the robot move as the stick of that page says; return whether it is the one that steers."""
         with self._lock:
-            if page is not self._steerer:
+            if page is not self.steerer:
                 return False
             self._is_held = not twist.is_zero
             self._robot.steer(twist)
         return True
 
-    def leave(self, page: Steerer) -> bool:
+    def leave(self, page: Face) -> bool:
         """Take note that the connection of that page has ended: it steers no more. Return whether it did."""
         with self._lock:
-            if page is not self._steerer:
+            if page is not self.steerer:
                 return False
             was_held, self._is_held = self._is_held, False
-            self._steerer = None
+            self.steerer = None
         if was_held or self._has_work():
             self._lose()
         return True
@@ -137,7 +111,7 @@ class Steering:
     def look(self) -> None:
         """Stop the robot where nothing is heard of the page whose words it follows."""
         self._note_unread()
-        if self._steerer is not None and not (self.is_alive or self._was_lost) and self._has_work():
+        if self.steerer is not None and not (self.is_alive or self._was_lost) and self._has_work():
             self._was_lost = True
             self._lose()
 
@@ -149,15 +123,11 @@ class Steering:
 
     def _note_unread(self) -> None:
         """Take what comes while more lies unread for a sign of life: the event loop is late, not the page."""
-        steerer, now_s = self._steerer, self._now()
+        steerer, now_s = self.steerer, self._now()
         unread_bytes = 0 if steerer is None else steerer.unread_bytes()
         if 0 < self._unread_bytes < unread_bytes and now_s - self._beat_s < UNREAD_S:
             self._unread_s = now_s
         self._unread_bytes = unread_bytes
-
-    def _most_s(self, here_s: float, afar_s: float) -> float:
-        steerer = self._steerer
-        return here_s if steerer is None or steerer.is_local else afar_s
 
     def _lose(self) -> None:
         self._robot.stop("the steering page is gone")

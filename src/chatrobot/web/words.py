@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import math
+from functools import partial
 from typing import Any
 
 from chatrobot.core import events
 from chatrobot.core.events import Event
-from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import fixed
-from chatrobot.dialogue.replies import describe_end, describe_left
+from chatrobot.dialogue.replies import describe_end, describe_left, describe_twist
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.web.outbox import Message
 
-_LEAST_MPS = 0.005
 DROPPABLE = frozenset({"telemetry", "scan"})
 """The next event of that kind says all that this one does."""
 PASSING = DROPPABLE | {"progress", "pose", "limited", "obstacle_changed"}
@@ -50,22 +48,18 @@ def refused(why: str, do: str = "", **values: object) -> Message:
 def event_message(event: Event) -> Message:
     """Make the message that tells an event. Its `text` is for people, where the event itself has only a code."""
     data = event.to_json()
-    is_droppable = event.name in DROPPABLE
     if event.name == "scan":
         scan = {key: value for key, value in data.items() if key not in ("event", "turn")}
         return Message(lambda _: {"is": "scan", **scan}, is_droppable=True)
-    if not isinstance(event, _WORDED):
-        return Message(lambda _: {"is": "event", "event": data}, is_droppable=is_droppable)
-    return Message(lambda language: {"is": "event", "event": data, "text": _text(event, language)})
+
+    def make(language: LanguageCode) -> dict[str, Any]:
+        text = _text(event, language)
+        return {"is": "event", "event": data, **({"text": text} if text is not None else {})}
+
+    return Message(make, is_droppable=event.name in DROPPABLE)
 
 
-_WORDED = (
-    events.FindingSeen, events.Rehearsed, events.ProgramWritten, events.ProgramRehearsed, events.Paused,
-    events.Limited, events.Remembered, events.Notice, events.Result, events.Finished, events.Ordered,
-)  # fmt: skip
-
-
-def _text(event: Event, language: LanguageCode) -> str | list[str]:
+def _text(event: Event, language: LanguageCode) -> str | list[str] | None:
     """A sentence; for what has findings, one for each."""
     if isinstance(event, events.Notice):
         return event.text or render_reason(event.reason, language)
@@ -91,22 +85,10 @@ def _text(event: Event, language: LanguageCode) -> str | list[str]:
         return web_words(language, "remembered", place=event.place, pose=place)
     if isinstance(event, events.Finished):
         return describe_end(event, language)
-    if isinstance(event, events.Result):
-        return event.reply
-    raise TypeError(f"{event.name} has no words")
+    return event.reply if isinstance(event, events.Result) else None
 
 
 def _limited(event: events.Limited, language: LanguageCode) -> str:
-    asked, sent = _twist(event.asked, language), _twist(event.sent, language)
+    asked, sent = (describe_twist(twist, partial(web_words, language)) for twist in (event.asked, event.sent))
     text = web_words(language, "limited_to", asked=asked, sent=sent)
     return f"{text} ({render_reason(event.reason, language)})" if event.reason is not None else text
-
-
-def _twist(twist: Twist, language: LanguageCode) -> str:
-    parts = []
-    if twist.speed_mps >= _LEAST_MPS:
-        parts.append(web_words(language, "speed", speed=f"{twist.speed_mps:.2f}"))
-    rate = fixed(math.degrees(twist.wz_radps), 0)
-    if float(rate):
-        parts.append(web_words(language, "rate", rate=rate))
-    return " · ".join(parts) or web_words(language, "speed", speed="0")

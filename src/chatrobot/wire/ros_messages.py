@@ -78,11 +78,6 @@ def image_to(picture: Picture) -> dict[str, Any]:
     }
 
 
-def compressed_to(picture: Picture) -> dict[str, Any]:
-    """The fields of sensor_msgs/CompressedImage without its header."""
-    return {"format": picture.encoding, "data": picture.data}
-
-
 def _bytes(data: Any) -> bytes:
     """uint8[] as every library has it: numpy (rosbags), array (rclpy), base64 or a list (rosbridge)."""
     if len(data) > 2 * MOST_BYTES:
@@ -319,7 +314,11 @@ _BATTERY = RosForm(
 )
 _COMPRESSED = RosForm(
     "sensor_msgs/msg/CompressedImage",
-    lambda picture: {"header": _header(picture.stamp_s, CAMERA_FRAME), **compressed_to(picture)},
+    lambda picture: {
+        "header": _header(picture.stamp_s, CAMERA_FRAME),
+        "format": picture.encoding,
+        "data": picture.data,
+    },
     lambda message: compressed_from(message, _stamp_s(message)),
 )
 _PLAIN: dict[type[Message], RosForm] = {

@@ -15,13 +15,6 @@ _HAN_FILES = (
     "NotoSansCJK*", "NotoSansSC*", "SourceHanSans*", "wqy-microhei*", "wqy-zenhei*", "DroidSansFallback*",
     "PingFang*", "Hiragino*GB*", "STHeiti*", "msyh*", "simhei*", "uming*", "ukai*",
 )  # fmt: skip
-_MONO_FILES = (
-    "DejaVuSansMono.ttf",
-    "LiberationMono-Regular*",
-    "UbuntuMono*",
-    "NotoSansMono-Regular*",
-    "Menlo*",
-)
 
 
 @cache
@@ -33,15 +26,7 @@ def latin(size_px: int) -> Font:
 @cache
 def han(size_px: int) -> Font | None:
     """Return a font that has Chinese, None on a system without one."""
-    path = _find(_HAN_FILES)
-    return ImageFont.truetype(str(path), size_px) if path is not None else None
-
-
-@cache
-def mono(size_px: int) -> Font | None:
-    """Return a font whose letters are all as wide as each other, and which has braille; None where there is none."""
-    path = _find(_MONO_FILES)
-    return ImageFont.truetype(str(path), size_px) if path is not None else None
+    return installed(_HAN_FILES, size_px)
 
 
 def is_latin(text: str) -> bool:
@@ -52,6 +37,12 @@ def is_latin(text: str) -> bool:
 def font_for(text: str, size_px: int) -> Font | None:
     """Return a font that can show `text`, None where there is none."""
     return latin(size_px) if is_latin(text) else han(size_px)
+
+
+def installed(files: tuple[str, ...], size_px: int) -> Font | None:
+    """Return the first of these files that the system has as a font, None where it has none of them."""
+    path = _find(files)
+    return ImageFont.truetype(str(path), size_px) if path is not None else None
 
 
 @cache

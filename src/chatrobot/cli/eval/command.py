@@ -179,7 +179,7 @@ def _still_counts(all_judged: Sequence[Judged]) -> dict[str, int]:
     still = [judged for judged in all_judged if judged.item.must_stand]
     return {
         "items": len(still),
-        "moved": sum(judged.has_moved for judged in still),
+        "moved": sum(judged.measured.has_moved for judged in still),
         "proposals": sum(any(judged.proposals) for judged in still),
     }
 

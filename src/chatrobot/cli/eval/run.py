@@ -12,7 +12,7 @@ from chatrobot.cli.eval.judge import Record, Verdict, judge
 from chatrobot.compose import Setup, connect
 from chatrobot.core.events import Event, Interpreted, Result, TruePose
 from chatrobot.robots.profile import RobotProfile
-from chatrobot.sim.trace import Measured, Sample, has_moved, measure
+from chatrobot.sim.trace import Measured, Sample, measure
 
 START = Sample(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -36,11 +36,6 @@ class Judged:
     def measured(self) -> Measured:
         """From the start to the end of the last turn."""
         return measure([sample for record in self.records for sample in record.trace])
-
-    @property
-    def has_moved(self) -> bool:
-        """Whether the robot moved in any turn."""
-        return has_moved([sample for record in self.records for sample in record.trace])
 
     @property
     def was_proposed(self) -> bool:

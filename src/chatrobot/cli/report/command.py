@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
         print(f"chatrobot: {say(amiss)}", file=sys.stderr)
     for kind, out in outs.items():
         _private(out, _writer(kind, drive, say, amiss))
-        print(say("written", file=out, size=_size(out)))
+        print(say("written", file=out, size=f"{out.stat().st_size / 1000.0:.0f} kB"))
     return 0
 
 
@@ -92,10 +92,6 @@ def _private(out: Path, write: Callable[[Path], object]) -> None:
         os.replace(beside, out)
     finally:
         beside.unlink(missing_ok=True)
-
-
-def _size(out: Path) -> str:
-    return f"{out.stat().st_size / 1000.0:.0f} kB"
 
 
 def _write_csv(drive: Drive, path: Path) -> None:

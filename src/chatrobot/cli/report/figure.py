@@ -23,17 +23,13 @@ def write_figure(drive: Drive, say: Say, path: Path, kind: type[SvgCanvas] | typ
     Raises:
         OSError: the file cannot be written.
     """
-    surface = kind(WIDTH_PX, _height_px(drive), PAPER)
+    surface = kind(WIDTH_PX, TOP_PX + _map_px(drive)[1] + LEGEND_PX + SPEEDS_PX, PAPER)
     _draw(drive, surface, say)
     surface.save(path, say("map_name", marks=len(drive.marks)))
 
 
 def _map_px(drive: Drive) -> tuple[int, int]:
     return map_size(drive, WIDTH_PX - LEFT_PX - RIGHT_PX, MOST_MAP_HEIGHT_PX)
-
-
-def _height_px(drive: Drive) -> int:
-    return TOP_PX + _map_px(drive)[1] + LEGEND_PX + SPEEDS_PX
 
 
 def _draw(drive: Drive, surface: Surface, say: Say) -> None:

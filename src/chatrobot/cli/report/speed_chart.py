@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from operator import itemgetter
 
 from chatrobot.cli.drawing.ground import AMBER, FAINT, GRID, GRID_STRONG, INK, WHITE, Rgb
 from chatrobot.cli.drawing.surface import Box, Surface
@@ -150,15 +151,10 @@ def _thinned(points: Sequence[Sample]) -> Iterable[Sample]:
         if point is not None and (not column or int(point[0] / _COLUMN_PX) == int(column[0][0] / _COLUMN_PX)):
             column.append(point)
             continue
-        ends = (
-            {column[0], column[-1], min(column, key=_height), max(column, key=_height)} if column else set()
-        )
+        height = itemgetter(1)
+        ends = {column[0], column[-1], min(column, key=height), max(column, key=height)} if column else set()
         yield from sorted(ends)
         column = [point] if point is not None else []
-
-
-def _height(point: Sample) -> float:
-    return point[1]
 
 
 def clock(t_s: float, decimals: int = 0) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished, Looked
 from chatrobot.dialogue.llm.camera import Camera
-from chatrobot.dialogue.observations import measured, observation
+from chatrobot.dialogue.observations import observation
 from chatrobot.models.seam import Message
 from chatrobot.plan.base import Step
 
@@ -40,10 +40,6 @@ class Surroundings:
 
     def _take(self) -> bytes | None:
         return self.camera.take() if self.camera is not None else None
-
-    def measured(self, finished: Finished | None) -> str:
-        """Return what was driven, in words."""
-        return measured(finished) if finished is not None else "nothing"
 
     def give_up_looking(self) -> None:
         """Show no pictures any more: the model cannot see."""

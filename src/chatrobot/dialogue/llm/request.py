@@ -18,7 +18,7 @@ from chatrobot.dialogue.llm.plan_stream import PlanStream
 from chatrobot.dialogue.llm.prompt import correction, is_short_form
 from chatrobot.dialogue.llm.round import ModelRound
 from chatrobot.dialogue.llm.terms import Ended, ModelOptions, Spending
-from chatrobot.dialogue.observations import without_pictures
+from chatrobot.dialogue.observations import measured, without_pictures
 from chatrobot.models.seam import Message, Model
 from chatrobot.plan.base import Step
 from chatrobot.plan.text import format_step
@@ -168,8 +168,7 @@ class ModelRequest:
         self._spending.calls += 1
         # A model that has been wrong once is read to its end before anything moves.
         self._feed.begin(streams=not self._comes_whole and not self._spending.retries)
-        limits = self._options.limits
-        self._round = ModelRound(self._model, self._messages, limits, self._link.wake, self._done)
+        self._round = ModelRound(self._model, self._messages, self._link.wake, self._done)
         if self._cancelled is not None:
             self._round.call.cancel()
 
@@ -280,7 +279,8 @@ class ModelRequest:
         done = [format_step(step) for step in self._done]
         tries = {"try": self._spending.retries, "tries": MAX_RETRIES}
         self._emit(Notice(self.turn, Reason("model_corrected", tries)))
-        self._go_on(Message("user", correction(problem, done, self._surroundings.measured(self._total))))
+        driven = measured(self._total) if self._total is not None else "nothing"
+        self._go_on(Message("user", correction(problem, done, driven)))
 
     def _begin_look(self) -> None:
         self._feed.say_held()

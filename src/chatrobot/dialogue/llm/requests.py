@@ -219,11 +219,10 @@ class ModelRequests:
         now = "\n".join([*filter(None, news), request])
         return request, [Message("system", system), *earlier, Message("user", now)]
 
-    def replace(self, but_turn: int = 0) -> None:
-        """Give up what models are planning for something else (but for the turn `but_turn`)."""
-        for number, turn in tuple(self._turns.items()):
-            if number != but_turn:
-                turn.doing.replace()
+    def replace(self) -> None:
+        """Give up what models are planning for something else."""
+        for turn in tuple(self._turns.values()):
+            turn.doing.replace()
         self._take_ended()
 
     def hear(self, event: Event) -> None:

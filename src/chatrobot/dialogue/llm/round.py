@@ -27,7 +27,6 @@ class ModelRound:
         self,
         model: Model,
         messages: Sequence[Message],
-        limits: CallLimits,
         wake: Callable[[], None],
         done: tuple[Step, ...],
     ) -> None:
@@ -39,7 +38,7 @@ class ModelRound:
         self.run_problem: Reason | None = None
         """Why its run did not come to its end."""
         self.is_plan_refused = False
-        self.call = ModelCall(model, messages, limits, wake)
+        self.call = ModelCall(model, messages, CallLimits(), wake)
 
     @property
     def is_in_vain(self) -> bool:

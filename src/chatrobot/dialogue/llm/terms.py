@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from chatrobot.core.events import Finished, ModelCalled, Outcome
 from chatrobot.core.reason import Reason
-from chatrobot.models.seam import CallLimits
 from chatrobot.plan.base import Step
 
 
@@ -20,7 +19,6 @@ class ModelOptions:
     rounds: int = 6
     budget_tokens: int = 20_000
     budget_s: float = 600.0
-    limits: CallLimits = field(default_factory=CallLimits)
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from chatrobot.dialogue.llm.prompt import mend_prompt, program_prompt
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.language.program_request import ProgramRequest, read_program_name, read_request
+from chatrobot.language.program_request import ProgramRequest, read_program_name
 from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
@@ -123,11 +123,6 @@ class Authoring:
             draft = replace(draft, program=replace(draft.program, name=name))
         new = draft.next(source, check(source, self._profile))
         return replace(new, asks=True, place=self.library.place(new.program.name))
-
-    @staticmethod
-    def request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | None:
-        """Read what program `text` asks for; None where it asks for none."""
-        return read_request(text, is_asked_for=is_asked_for)
 
     # --- writing ---
 

@@ -30,7 +30,7 @@ from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.phrases import render_reason
-from chatrobot.language.program_request import ProgramRequest
+from chatrobot.language.program_request import ProgramRequest, read_request
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.models.seam import Message
 
@@ -160,7 +160,7 @@ class ProgramRequests:
         if draft is not None:
             self.run(turn, text, draft)
             return True
-        request = self.authoring.request(text, is_asked_for=is_asked_for)
+        request = read_request(text, is_asked_for=is_asked_for)
         if request is None:
             return False
         request = replace(request, name=name or request.name)

@@ -34,7 +34,6 @@ class Call:
     path: str
     headers: dict[str, str]
     body: dict[str, Any]
-    at_s: float
     asked: Asked | None = None
     sent_s: list[float] = field(default_factory=list)
     """When each token left."""
@@ -142,7 +141,7 @@ class _Handler(BaseHTTPRequestHandler):
             self._json(200, {"id": fake.conversations.begin(), "object": "conversation"})
         else:
             headers = {name.lower(): value for name, value in self.headers.items()}
-            call = Call(self.path, headers, body, time.monotonic())
+            call = Call(self.path, headers, body)
             fake.calls.append(call)
             self._answer(wire, call)
 

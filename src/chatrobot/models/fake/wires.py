@@ -64,11 +64,6 @@ class Conversations:
         self.keep(conversation := new_id("conv"), ())
         return conversation
 
-    def drop(self) -> None:
-        """Forget everything, as servers do after some weeks."""
-        with self._lock:
-            self._turns.clear()
-
     def known(self, name: str) -> Turns:
         """Return the turns of that response or conversation.
 

@@ -242,17 +242,13 @@ class HeldTwist:
     def __init__(self, base_timeout_s: float | None) -> None:
         self._timeout_s = math.inf if base_timeout_s is None else base_timeout_s
         self._twist = ZERO_TWIST
-        self._ends_s = -math.inf
+        self.ends_s = -math.inf
+        """When it turns to zero."""
 
     def publish(self, twist: Twist, now_s: float) -> None:
         """Hold `twist` from now on."""
-        self._twist, self._ends_s = twist, now_s + self._timeout_s
+        self._twist, self.ends_s = twist, now_s + self._timeout_s
 
     def at(self, now_s: float) -> Twist:
         """Return what is held then."""
-        return self._twist if now_s < self._ends_s else ZERO_TWIST
-
-    @property
-    def ends_s(self) -> float:
-        """Return when it turns to zero."""
-        return self._ends_s
+        return self._twist if now_s < self.ends_s else ZERO_TWIST

@@ -7,7 +7,6 @@ it (its own end, an exception, a kill, silence), the robot is brought to stand.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
 
 from chatrobot.core.clock import TERM_S, TICK_S
 from chatrobot.core.events import Event, Finished, Outcome, ProgramLog, Progress
@@ -17,12 +16,9 @@ from chatrobot.execution.sensors import STANDS_LATE_S, is_seen_moving, is_seen_s
 from chatrobot.governor.governor import Verdict
 from chatrobot.motion.governed_motion import GovernedMotion, decelerated, is_worth_telling
 from chatrobot.motion.governed_robot import GovernedRobot
-from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.clocks import HeldTwist, LiveProgram
 from chatrobot.motion.programs.goal import ProgramGoal
-from chatrobot.motion.remembered_obstacles import RememberedObstacles
 from chatrobot.programs.events import Died, Ended, Log, Output, ProgramEvent, Raised, TwistAsked
-from chatrobot.wire.wire import Wire
 
 SETTLE_S = 1.0
 """A robot that is told to stand is waited for no longer than this, where it is not seen moving."""
@@ -171,32 +167,3 @@ class ProgramExecution:
         if is_worth_telling(verdict) and key not in self._told and len(self._told) < LOG_LINES:
             self._told.add(key)
             self._emit(self._motion.limited(verdict))
-
-
-class ProgramSandbox(Protocol):
-    """The part of the sandbox that Motion needs."""
-
-    def attach(self, wire: Wire) -> None:
-        """Hear the robot's sensors, for programs that listen to them."""
-        ...
-
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:
-        """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
-        ...
-
-    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
-        """Start it; return why where it cannot be."""
-        ...
-
-
-class NoSandbox:
-    """Nowhere: every program is refused."""
-
-    def attach(self, wire: Wire) -> None:
-        """Do nothing: there are no programs to hear for."""
-
-    def rehearse(self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None) -> Planned:  # noqa: ARG002
-        return Planned(goal.turn, None, Reason("no_programs_here"))
-
-    def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:  # noqa: ARG002
-        return Reason("no_programs_here")

@@ -17,7 +17,7 @@ from chatrobot.wire.wire import Wire
 
 
 class ProgramHost:
-    """A `ProgramSandbox`. Its server starts with the first program, and anew where it has died.
+    """The sandbox of programs, for Motion. Its server starts with the first program, and anew where it has died.
 
     Args:
         is_in_step: programs run on the virtual clock of a simulation, not in real time.
@@ -73,11 +73,6 @@ class ProgramHost:
         except SandboxError as error:
             return error.reason
         return (SteppedProgram if self._is_in_step else RealTimeProgram)(program, self._sensors)
-
-    @property
-    def server_pid(self) -> int | None:
-        """Return the process of the warm server, where it runs."""
-        return self._server.process.pid if self._server.process is not None else None
 
     def close(self) -> None:
         """End the server and whatever still runs in it."""

@@ -22,7 +22,7 @@ from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
 from chatrobot.plan.context import Finding, Severity
 from chatrobot.plan.known_world import Contact, Floats, obstacle_values
 from chatrobot.plan.rehearsal import MARGIN_M, RehearsedPath, limited_reason
-from chatrobot.plan.swept_path import area_clearance, first_contact, pose_of
+from chatrobot.plan.swept_path import area_clearance, first_contact
 from chatrobot.programs.events import (
     ENDS,
     Beat,
@@ -304,4 +304,4 @@ def _contact(code: str, path: Floats, contact: Contact, **about: Value) -> Findi
     row = path[contact.row]
     driven_m = float(np.hypot(*np.diff(path[: contact.row + 1, 1:3], axis=0).T).sum())
     reason = Reason(code, {"distance_m": driven_m, "total_m": driven_m, **about})
-    return Finding("refuse", reason, t_s=float(row[0]), where=pose_of(row))
+    return Finding("refuse", reason, t_s=float(row[0]))

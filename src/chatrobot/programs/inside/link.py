@@ -156,7 +156,7 @@ _current: list[Link] = []
 
 def open_link(channel: socket.socket, settings: ProgramSettings) -> Link:
     """Begin to speak with the host on `channel`, for this whole process."""
-    link = (_VirtualLink if settings.mode == "virtual" else Link)(channel, settings)
+    link = (VirtualLink if settings.mode == "virtual" else Link)(channel, settings)
     _current[:] = [link]
     link.start()
     return link
@@ -203,7 +203,7 @@ PUBLISH_WEIGHT = 0.1
 """What publishing costs, and how much of a look at the clock it is."""
 
 
-class _VirtualLink(Link):
+class VirtualLink(Link):
     """On virtual time: the host's simulated robot and the program move in lock step.
 
     A program that listens to nothing needs no answers: what it does goes out with the time it did it at, and the host

@@ -9,7 +9,10 @@ from __future__ import annotations
 import _thread
 from collections import deque
 from heapq import heappop, heappush
-from typing import NoReturn, Protocol
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from chatrobot.programs.inside.link import VirtualLink
 
 LOOK_NS = 1_000
 FLOOD_LOOK_NS = 2_000_000
@@ -18,21 +21,6 @@ FLOOD_AFTER_LOOKS = 200.0
 
 _allocate_lock = _thread.allocate_lock
 """The real one, whatever is put in its place later."""
-
-
-class Outside(Protocol):
-    """The source of time."""
-
-    due_ns: int
-    """When the next message of the robot may come that the program listens for."""
-
-    def advance(self, now_ns: int, until_ns: int) -> int:
-        """Let time pass to `until_ns`, or to an earlier message, which is delivered. Return the new time."""
-        ...
-
-    def finish(self, now_ns: int, stuck: bool) -> NoReturn:
-        """End the program at the horizon; `stuck`: nothing was left to wait for."""
-        ...
 
 
 class Task:
@@ -52,7 +40,7 @@ class Task:
 class Scheduler:
     """See the module. All times in nanoseconds since the program's start."""
 
-    def __init__(self, outside: Outside, horizon_ns: int) -> None:
+    def __init__(self, outside: VirtualLink, horizon_ns: int) -> None:
         self.now_ns = 0
         self.current = Task()
         self._outside = outside
