@@ -272,6 +272,21 @@ def test_a_yes_with_a_change_runs_the_plan_with_it(answer: str, plan: str) -> No
     assert plan_of_last(talk) == plan
 
 
+@pytest.mark.parametrize("answer", ["no, 20 cm", "sorry, I meant 20 cm", "make it 20 cm", "不对，二十厘米"])
+def test_what_was_refused_is_done_as_it_is_said_otherwise(answer: str) -> None:
+    talk = Talk()
+    assert talk.session.do("forward 300 m").outcome == "refused"
+    assert talk.session.do(answer).outcome == "completed"
+    assert plan_of_last(talk) == "drive 0.2 m"
+
+
+def test_what_was_refused_is_forgotten_after_the_next_turn() -> None:
+    talk = Talk()
+    talk.session.do("forward 300 m")
+    talk.session.do("thanks")
+    assert talk.session.do("no, 20 cm").path_m == 0.0
+
+
 @pytest.mark.parametrize(
     ("answer", "plan"),
     [

@@ -54,7 +54,7 @@ def test_nothing_is_proposed_where_a_clause_denies_bounds_reports_or_asks(text: 
         (["forward 1 m, wait 2 s, back 1 m", "without the pause this time"], "drive 1 m; drive 1 m back"),
         (["turn right by 60 degrees", "could you do that two more times?"], "turn right 60 deg; turn right 60 deg"),
         (["right 45, forward 70 cm", "from the beginning, but left instead of right"],
-         "turn left 45 deg; drive 0.7000000000000001 m"),
+         "turn left 45 deg; drive 0.7 m"),
         (["turn left 90, forward 1 m", "again but with the steps the other way round"], "drive 1 m; turn left 90 deg"),
     ],
 )  # fmt: skip

@@ -88,8 +88,3 @@ def test_another_length_with_a_shape_is_its_side(before: str, text: str) -> None
 
 def test_another_length_after_sides_of_two_lengths_is_asked_about() -> None:
     assert done("drive a rectangle of 1 m by 2 m", "now with 30 cm") == "unclear"
-
-
-def test_where_it_was_before_something_is_not_where_it_began() -> None:
-    turns = ("go forward 1 m", "turn left 90 degrees", "go back to where you were before the turn")
-    assert done(*turns) == "unclear"

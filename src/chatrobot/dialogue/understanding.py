@@ -254,6 +254,8 @@ class Understanding:
         told = describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
         record = TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number, told=told)
         self._note_end(record, finished)
+        if outcome == "refused":  # `no, 2 m` changes what could not be done
+            self._dialogue = replace(self._dialogue, offered=meant.plan)
         return say(meant.language, "only_rehearsed") if rehearse_only and outcome == "completed" else told
 
     def describe(self, steps: Sequence[Step]) -> str:
@@ -277,8 +279,7 @@ class Understanding:
         self._dialogue = replace(
             dialogue,
             words={**words, **meant.define},
-            default_speed_mps=meant.default_speed_mps or dialogue.default_speed_mps,
-            default_rate_radps=meant.default_rate_radps or dialogue.default_rate_radps,
+            usual=dialogue.usual.changed(meant.usual),
         )
 
     def _as_if_done(self, instruction: Instruction) -> TurnRecord:

@@ -25,7 +25,9 @@ def act(frame: Frame, state: State, pace: Pace) -> list[Step]:
     check_extents(frame)
     _check_known(frame, state)
     if goes_back(frame, state):
-        return turned_back(frame, state) or way_back(Frame(verb="return", pace=frame.pace), state, pace)
+        back = Frame(verb="return", pace=frame.pace, q=dict(frame.q))
+        turned = [] if frame.verb else turned_back(state)
+        return turned or way_back(back, state, pace)
     if "to_start" in frame.flags and frame.direction and "length" in frame.q:
         frame = frame.copy()
         frame.flags.discard("to_start")  # the way to it is told in full
@@ -67,7 +69,8 @@ def _acted(frame: Frame, state: State, pace: Pace) -> list[Step]:
         back = way_back(Frame(verb="return", pace=frame.pace), state, pace)
         return [*back, *face(frame, state, pace)]
     if frame.verb == "return" or to_start:
-        return way_back(frame, state, pace)
+        bare = frame.verb == "return" and not ({*frame.q} - {"times"} or frame.flags or frame.direction)
+        return (turned_back(state) if bare and state.steps else []) or way_back(frame, state, pace)
     if frame.verb == "face" or "original_heading" in frame.flags:
         return face(frame, state, pace)
     if frame.verb == "uturn":

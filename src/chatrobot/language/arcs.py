@@ -72,4 +72,7 @@ def arc(frame: Frame, pace: Pace) -> list[Step]:
     said = pace.speed(frame)
     if seconds is not None and said is None:
         said = radius * sweep / seconds.number
-    return [Arc(radius, sweep, left=left, backward=backward, speed_mps=said)]
+    turns_left = left != (
+        backward and "while" in frame.flags
+    )  # `back 1 m while turning left`: its heading does
+    return [Arc(radius, sweep, left=turns_left, backward=backward, speed_mps=said)]

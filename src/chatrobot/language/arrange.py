@@ -215,6 +215,8 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
     for frame in frames:
         at = len(out)
         while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
+            if out[at - 1].verb == "go" and "length" in frame.q and frame.shape != "rectangle":
+                break  # `go 1 m, drive a half circle with a radius of 50 cm`: it has its own measure
             at -= 1
         out[at:] = _in_said_order(frame, out[at:])
     return out

@@ -26,7 +26,7 @@ def by_clock(frame: Frame, pace: Pace) -> list[Step]:
     if "length" in frame.q or "time" in frame.q or frame.verb in ("slide", "shift"):
         check_sideways("left", pace)
         length, seconds = frame.q.get("length"), frame.q.get("time")
-        distance = length.number if length else None if seconds else pace.profile.defaults.distance_m
+        distance = length.number if length else None if seconds else pace.distance_m
         time_s = seconds.number if seconds and not length else None
         return [Drive(distance, duration_s=time_s, direction_rad=angle, speed_mps=pace.speed(frame))]
     if abs(angle) < 1e-9:

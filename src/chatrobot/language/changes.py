@@ -8,13 +8,15 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
-from chatrobot.language.inverse import flipped
+from chatrobot.language.inverse import flipped, is_sideways
+from chatrobot.language.last_motion import laps, motion_meant, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.resizing import resized
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Face, Go, RawTwist, Repeat, Step, Turn, Wait
@@ -48,6 +50,37 @@ def is_change(whole: Frame) -> bool:
     return bool({"fold", "scale", "faster"} & set(whole.q)) and not whole.has_extent
 
 
+def takes_from_before(frame: Frame) -> bool:
+    """Whether it takes more than its side from the motion before: `then back`, 再走两遍."""
+    return (
+        "times" in frame.q or frame.verb == "return" or (frame.direction == "back" and not frame.has_extent)
+    )
+
+
+def steps_named(whole: Frame, dialogue: Dialogue) -> tuple[Step, ...]:
+    """The steps of `motion_meant`; the last turn or slide alone where that is named: `do the slide again`.
+
+    Raises:
+        Unclear: nothing before was such a motion.
+    """
+    last = motion_meant(dialogue)
+    is_kind = {"slide": is_sideways, "turn": _is_turn}.get(whole.verb)
+    if is_kind is None or "again" not in whole.flags or whole.direction or whole.rot:
+        return steps_of(last)
+    of_kind = tuple(filter(is_kind, steps_of(last)))
+    if of_kind:
+        return of_kind if len(of_kind) == 1 else steps_of(last)
+    plans = (turn.plan for turn in reversed(dialogue.turns) if turn.plan is not None and turn.walk is None)
+    found = next((plan.steps for plan in plans if all(map(is_kind, plan.steps))), None)
+    if found is None:
+        raise Unclear("nothing_before", whole.text)
+    return found
+
+
+def _is_turn(step: Step) -> bool:
+    return isinstance(step, (Turn, Arc))
+
+
 def _only_points_back(whole: Frame) -> bool:
     """`turn the other way`, `go again`, `turn half of that`: a verb that names no motion of its own."""
     if {"again", "more"} <= whole.flags and whole.verb in (*GO, *TURN) and not whole.direction:
@@ -76,7 +109,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         del whole.q["fold"]
         name = "faster" if re.search("速|快|慢", fold.text) else "scale"
         whole.q[name] = quantity(name, fold.number, fold.text)
-    before, whole = _mirrored(before, whole)
+    before, whole = _mirrored(before, _round_other_way(before, whole))
     if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in _leaves(before)):
         raise Unclear("nothing_before", whole.text)  # `the turn again`, of what drove as well
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
@@ -88,7 +121,8 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     factors = _factors(before, whole, factor)
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
         raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
-    steps = [_step(step, whole, factors, pace) for step in before]
+    ahead_rad = next((step.direction_rad for step in _leaves(before) if isinstance(step, Drive)), 0.0)
+    steps = [_step(step, whole, factors, pace, ahead_rad) for step in before]
     count = whole.q.get("times")
     if count is not None:
         return steps * whole_number(count.number, count.text)
@@ -116,6 +150,15 @@ def _leaves(steps: Sequence[Step]) -> Iterator[Step]:
             yield from _leaves(step.steps)
         else:
             yield step
+
+
+def _round_other_way(steps: Sequence[Step], whole: Frame) -> Frame:
+    """`The other way round`, after a closed shape: round it to the other side, and not backwards."""
+    if "other_way" not in whole.flags or len(steps) < 2 or laps(steps, 1) is None:
+        return whole
+    whole = whole.copy()
+    whole.flags = (whole.flags - {"other_way"}) | {"mirrored"}
+    return whole
 
 
 def _mirrored(steps: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Frame]:
@@ -161,15 +204,17 @@ def _part_said(whole: Frame) -> Frame:
     return whole
 
 
-def _step(step: Step, whole: Frame, factors: Factors, pace: Pace) -> Step:
+def _step(step: Step, whole: Frame, factors: Factors, pace: Pace, ahead_rad: float) -> Step:
     if isinstance(step, Repeat):
-        return Repeat(step.count, tuple(_step(inner, whole, factors, pace) for inner in step.steps))
+        return Repeat(
+            step.count, tuple(_step(inner, whole, factors, pace, ahead_rad) for inner in step.steps)
+        )
     factor, opposite = factors.distance, "other_way" in whole.flags
     side = whole.rot or (whole.direction if whole.direction in SIDES else "")
     if isinstance(step, Drive):
         angle = step.direction_rad
-        if whole.direction:
-            angle = DIRECTIONS[whole.direction]
+        if whole.direction:  # what went back goes back from there, too
+            angle = math.remainder(angle + DIRECTIONS[whole.direction] - ahead_rad, 2 * math.pi)
         elif opposite:
             angle = math.remainder(angle + math.pi, 2 * math.pi)
         distance = step.distance_m * factor if step.distance_m else None
@@ -222,11 +267,10 @@ def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
 def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:
     """`a bit more`: the last motion's way, a little."""
     step = steps[-1]
-    defaults = pace.profile.defaults
     if len(steps) == 1 and isinstance(step, Drive):
-        bit_m = min(defaults.distance_m / 2, step.distance_m or math.inf)  # no more than there was
+        bit_m = min(pace.distance_m / 2, step.distance_m or math.inf)  # no more than there was
         return dataclasses.replace(step, distance_m=bit_m, duration_s=None)
     if len(steps) == 1 and isinstance(step, Turn):
-        bit_rad = min(defaults.turn_rad / 2, step.angle_rad or math.inf)
+        bit_rad = min(pace.turn_rad / 2, step.angle_rad or math.inf)
         return dataclasses.replace(step, angle_rad=bit_rad, duration_s=None)
     raise Unclear("nothing_before", whole.text)

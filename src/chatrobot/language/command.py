@@ -8,8 +8,9 @@ from dataclasses import replace
 from chatrobot import reflex
 from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
+from chatrobot.language.changes import takes_from_before
 from chatrobot.language.corrections import CORRECTING
-from chatrobot.language.edits import edited, resized
+from chatrobot.language.edits import edited
 from chatrobot.language.figures import figure_asked, with_another_size
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
@@ -21,6 +22,7 @@ from chatrobot.language.part_changed import part_changed
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.reading import Reading, frames_of
+from chatrobot.language.resizing import resized
 from chatrobot.language.selections import (
     check_no_manner,
     check_spoken_of,
@@ -35,7 +37,8 @@ from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import breaks_off, check_finished, is_choice
 from chatrobot.language.until import UntilObstacle, read_until
-from chatrobot.plan.steps import Drive, ObstacleWithin, Step
+from chatrobot.language.usual import from_now_on
+from chatrobot.plan.steps import Drive, ObstacleWithin, Step, Wait
 
 _MOVING = frozenset({"q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition"})
 _SENTENCE_END = re.compile(r"(?<=[?!.,;。])\s|(?<=[?。;])")
@@ -117,7 +120,7 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         raise Unclear("unclear_motion", rest.text)
     frames = frames_of(atoms)
     check_start(frames, reading.context.dialogue)
-    default = _default(frames, reading)
+    default = from_now_on(frames, reading)
     if default is not None:
         return default
     walked = reading.walked(frames)
@@ -143,7 +146,8 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
         return part
     before = dialogue.last_motion.plan.steps
     is_changed = any((a.kind, a.value) == ("flag", "instead") for a in atoms) and len(before) > 1
-    if is_changed and not any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in atoms):
+    told = [a for a in atoms if a.value != "wait" or not any(isinstance(step, Wait) for step in before)]
+    if is_changed and not any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in told):
         raise Unclear("unclear_motion", plain[:60])  # 角度改成六十度: of what was done, or once more?
     size = with_another_size(plain, atoms, language)
     if size is not None and (len(before) > 1 or size.roles != {"side"}):
@@ -162,7 +166,9 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     if waited and not is_correction(dialogue.last_motion):
         return [*reading.steps_of_their_own(waited), *before]
     own = frames_of(_after_again(atoms))
-    if any(f.moves for f in own) and not (any(map(_refers, own)) or is_correction(dialogue.last_motion)):
+    if any(f.moves for f in own) and not (
+        any(map(takes_from_before, own)) or is_correction(dialogue.last_motion)
+    ):
         return [*before, *reading.steps_of_their_own(own)]
     changed = edited(atoms, dialogue)
     leaves_out = any(a.value in ("leave_out", "first", "swapped") for a in atoms)
@@ -180,13 +186,6 @@ def _waited(atoms: list[Atom]) -> list[Frame]:
         return []
     own = frames_of(atoms[:at])
     return own if all(frame.verb in STILL and "time" in frame.q for frame in own) else []
-
-
-def _refers(frame: Frame) -> bool:
-    """Whether it takes more than its side from the motion before: `then back`, 再走两遍."""
-    return (
-        "times" in frame.q or frame.verb == "return" or (frame.direction == "back" and not frame.has_extent)
-    )
 
 
 def _after_again(atoms: list[Atom]) -> list[Atom]:
@@ -322,27 +321,6 @@ def _is_only_asked(sentence: str, reading: Reading) -> bool:
     except Unclear:
         return False
     return answered is not None and answered.outcome == "answered"
-
-
-def _default(frames: list[Frame], reading: Reading) -> Interpretation | None:
-    """`From now on drive at 10 cm/s`."""
-    if not frames or not any("from_now_on" in frame.flags for frame in frames):
-        return None
-    frame, language = frames[0], reading.language
-    if len(frames) > 1 or frame.has_extent or frame.direction or frame.shape:
-        raise Unclear("unclear_motion", frame.text)
-    if frame.turning or "rate" in frame.q:
-        rate = reading.pace.rate(frame)
-        if rate is not None:
-            reply = say(language, "default_rate_set", radps=f"{rate:.3g}")
-            return Interpretation("answered", reply, language, default_rate_radps=rate)
-    else:
-        usual = reading.profile.defaults.speed_mps if frame.pace == "default" and not frame.q else None
-        speed = reading.pace.speed(frame) or usual
-        if speed is not None:
-            reply = say(language, "default_set", mps=f"{speed:.3g}")
-            return Interpretation("answered", reply, language, default_speed_mps=speed)
-    raise Unclear("unclear_motion", frame.text)
 
 
 def _appends(atoms: list[Atom]) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
-from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.interpretation import LanguageCode, Usual
 from chatrobot.language.ledger import Ledger, TurnRecord
 from chatrobot.plan.steps import Plan
 
@@ -30,8 +30,7 @@ class Dialogue:
     turns: tuple[TurnRecord, ...] = ()
     places: Mapping[str, Place] = field(default_factory=dict)
     words: Mapping[str, Plan] = field(default_factory=dict)
-    default_speed_mps: float | None = None
-    default_rate_radps: float | None = None
+    usual: Usual = field(default_factory=Usual)
     start_pose: Pose = ORIGIN
     pending: str = ""
     held: Plan | None = None

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.core.geometry import wrap_angle
-from chatrobot.language.changes import a_bit_of, changed, is_change
+from chatrobot.language.changes import a_bit_of, changed, is_change, steps_named
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edits import mirrored
@@ -142,7 +142,7 @@ def _changed(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     parts = repeats_all(whole) and "again" in whole.flags and _is_one_of_several(context.dialogue)
     if is_correction(last) or undo_again or parts:
         raise Unclear("unclear_motion", whole.text)
-    return changed(steps_of(last), whole, pace)
+    return changed(steps_named(whole, context.dialogue), whole, pace)
 
 
 def _without_outcome(frames: Sequence[Frame]) -> Sequence[Frame]:

@@ -70,7 +70,8 @@ def _check_said_enough(frame: Frame, state: State) -> None:
 
 def _leg(frame: Frame, angle: float, state: State, pace: Pace) -> Drive:
     """The drive at `angle` to the robot's front, radians, by what is said of length, time and speed."""
-    speed = pace.speed(frame)
+    goes_on = "more" in frame.flags and state.last == "drive"
+    speed = pace.speed(frame) or (pace.before_mps if goes_on else None)
     length, seconds, said = frame.q.get("length"), frame.q.get("time"), frame.q.get("speed")
     if length is None and said is not None and said.role and seconds is None:
         return Drive(said.number, direction_rad=angle, speed_mps=speed)
@@ -85,7 +86,7 @@ def _leg(frame: Frame, angle: float, state: State, pace: Pace) -> Drive:
     if seconds is not None:
         return Drive(duration_s=seconds.number, direction_rad=angle, speed_mps=speed)
     state.unsaid.append(frame)
-    distance = pace.profile.defaults.distance_m * (0.5 if "bit" in frame.flags else 1.0)
+    distance = pace.distance_m * (0.5 if "bit" in frame.flags else 1.0)
     return Drive(distance, direction_rad=angle, speed_mps=speed)
 
 

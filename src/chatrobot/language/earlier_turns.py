@@ -8,17 +8,20 @@ from functools import lru_cache
 from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts, without
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount
 from chatrobot.language.command import read_command
+from chatrobot.language.earlier_poses import CURVES
 from chatrobot.language.facts import defined_unit
+from chatrobot.language.frames import EXTENTS
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.names import names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased, with_breaks
+from chatrobot.language.rules import form
 from chatrobot.language.selections import same_speed
 from chatrobot.language.set_off import set_off
 from chatrobot.language.sides import is_side, with_side
 from chatrobot.language.tidy import tidy
-from chatrobot.language.tokens import SILENT
+from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Turn
 
@@ -29,6 +32,7 @@ _UNANSWERED = frozenset(
     {"only_forbidden", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
 )
 """What was said of an order that no word of an answer could complete."""
+_TELLING = frozenset({"q", "num", "dir", "rot", "pace"})
 _MOTION = frozenset(
     {"verb", "dir", "rot", "q", "shape", "place", "number", "negation", "correction", "condition"}
 )
@@ -40,19 +44,29 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     if not pending or len(pending) + len(plain) > MAX_CHARACTERS:
         return None
     plain = _without_reason(plain, reading)
+    if any(_tells_of_others({sign.label for sign in read.clause.signs}) for read in read_acts(plain)):
+        return None  # `now you are 2 m away`
     if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
         return None
+    if form(reading.language, "talk", "confirms").fullmatch(normalise(pending).strip()):
+        return None  # it said yes to what was done
     if changes_nothing_said(normalise(pending), reading):
         return None  # it was to change a plan, and did not: nothing is to stay of it
     pending = _without_talk(pending, reading)
-    before = rephrased(normalise(pending), reading.language)
+    before = rephrased(normalise(pending), reading.language).rstrip(" .!")
     if _lacks_nothing(before, reading):
         return None  # `don't turn left`, `undo that`: what is ordered instead has nothing of it
     atoms = tidy(reading.atoms(plain))
+    if all(atom.kind in SILENT for atom in atoms):
+        return None  # a remark completes nothing
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
     if any(a.kind in ("verb", "shape", "place") or a.value in _OF_ITS_OWN for a in verbs):
-        return None
+        return _with_measure_told(before, plain, reading)
+    if _is_whole(atoms) and (
+        reading.context.dialogue.offered is not None or _goes_elsewhere(before, atoms, reading)
+    ):
+        return None  # `forward 1 m`, after `even slower`, which was asked about: no yes to that
     amended = with_answered_amount(before, plain, reading)
     if amended is not None:
         return amended
@@ -62,12 +76,47 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
             found = read_command(joined, reading)
         except Unclear:
             continue
-        if found.outcome == "plan":
-            return found
+        if found.outcome == "plan":  # what tells nothing of the plan that was asked about is no yes to it
+            is_told = any(a.kind in _TELLING or a.kind.startswith("unit") for a in atoms)
+            return found if is_told or found.plan != reading.context.dialogue.offered else None
     if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
+
+
+def _goes_elsewhere(before: str, atoms: list[Atom], reading: Reading) -> bool:
+    """Whether they name a way, and the order before another one: `two steps forward`, then `1 m to the left`."""
+    said, told = ({a.value for a in of if a.kind in ("dir", "rot")} for of in (atoms, reading.atoms(before)))
+    return bool(told) and not said <= told
+
+
+def _is_whole(atoms: list[Atom]) -> bool:
+    """Whether they say a way and how far: an order of its own."""
+    kinds = {atom.kind for atom in atoms if atom.kind != "q" or atom.value in EXTENTS}
+    return "q" in kinds and bool(kinds & {"dir", "rot"})
+
+
+def _tells_of_others(labels: set[str]) -> bool:
+    """Whether a clause states where or how somebody is or was: `my mum is on the left` names no side to turn to."""
+    return "verdict" in labels and bool(labels & {"other", "kin", "earlier", "away"})
+
+
+def _with_measure_told(before: str, plain: str, reading: Reading) -> Interpretation | None:
+    """`Left, a quarter circle`, after `an arc, radius 1 m`: the answer, with the measure that was told before."""
+    told, said = reading.atoms(before), reading.atoms(plain)
+    measure = [a for a in told if a.kind == "role" or (a.kind, a.value) == ("q", "length")]
+    curved = all(any(a.value in CURVES for a in atoms) for atoms in (told, said))
+    if not curved or [*sorted(a.kind for a in measure)] != ["q", "role"] or _says_length(said):
+        return None
+    try:
+        return read_command(f"{plain}, {' '.join(atom.text for atom in measure)}", reading)
+    except Unclear:
+        return None
+
+
+def _says_length(atoms: list[Atom]) -> bool:
+    return any((atom.kind, atom.value) == ("q", "length") for atom in atoms)
 
 
 def _without_reason(plain: str, reading: Reading) -> str:
@@ -113,11 +162,15 @@ def with_earlier_speed(plain: str, reading: Reading) -> str:
     found = same_speed(plain, reading.language)
     if found is None or any(atom.value == "speed" for atom in reading.atoms(plain[: found.start()])):
         return plain  # `1 m at 0.2 m/s, then back at the same speed`: that of this text
-    last = reading.context.dialogue.last_motion
-    steps = last.plan.steps if last is not None and last.plan is not None else ()
-    rates = {(step.rate_radps, "角速度", "弧度每秒") for step in steps if isinstance(step, Turn)}
-    speeds = {(step.speed_mps, "速度", "米每秒") for step in steps if isinstance(step, (Drive, Arc))}
-    named = rates if re.search("角|转", found.group()) else speeds or rates
+    turning = re.search("角|转", found.group()) is not None
+    kinds = (Turn,) if turning else (Drive, Arc)
+    done = [turn.plan.steps for turn in reversed(reading.context.dialogue.turns) if turn.plan is not None]
+    alike = next(
+        (steps for steps in done if any(isinstance(step, kinds) for step in steps)), done[0] if done else ()
+    )
+    rates = {(step.rate_radps, "角速度", "弧度每秒") for step in alike if isinstance(step, Turn)}
+    speeds = {(step.speed_mps, "速度", "米每秒") for step in alike if isinstance(step, (Drive, Arc))}
+    named = rates if turning else speeds or rates
     if len(named) != 1:
         raise Unclear("nothing_before", found.group().strip(" ,"))
     [(amount, name, unit)] = named

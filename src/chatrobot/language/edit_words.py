@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from chatrobot.language.arithmetic import is_another, sign_of
 from chatrobot.language.frames import GO, SIDES, TURN
+from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
@@ -56,6 +57,7 @@ class Edit:
     nth: int = 0
     slides: bool = False
     is_named: bool = False
+    times: int = 1
     sign: float = 1.0
     returns: bool = False
 
@@ -76,6 +78,10 @@ def read_edit(atoms: Sequence[Atom]) -> Edit | None:
             edit.flags.add("more")
             edit.sign = -1.0
             edit.amounts.append(quantity(atom.value, -atom.number, atom.text, atom.role))
+        elif (atom.kind, atom.value) == ("q", "times") and {"again", "instead"} <= said:
+            edit.times = whole_number(atom.number, atom.text)
+        elif (atom.kind, atom.value) == ("flag", "extra") and "instead" in said:
+            edit.flags.add("again")
         elif atom.kind in _IDLE or (atom.kind == "pace" and any(a.value == "speed" for a in atoms)):
             continue
         elif atom.kind == "negation" and edit.amounts and edit.instead is None:

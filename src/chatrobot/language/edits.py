@@ -23,18 +23,11 @@ from chatrobot.language.last_motion import (
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.meant import is_correction
 from chatrobot.language.numbers import is_chinese
+from chatrobot.language.resizing import TAKERS, resized, with_value
 from chatrobot.language.shape_sides import rest_of_shape
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
-
-_TAKERS: dict[str, tuple[type[Step], ...]] = {
-    "length": (Drive,), "angle": (Turn, Arc), "turns": (Turn, Arc), "time": (Drive, Turn, Wait),
-    "radius": (Arc,), "speed": (Drive, Arc), "rate": (Turn,),
-}  # fmt: skip
-"""What a new amount may be for."""
-_OF_ONE = frozenset({"length", "angle", "turns", "time"})
-"""Amounts that are for one step, where nothing tells that they are of each."""
+from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 
 def _to_edit(edit: Edit, dialogue: Dialogue) -> TurnRecord | None:
@@ -85,7 +78,7 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
             return None
         unit_m = said_unit_m(last.text) or 0.0
         edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 1.0) for amount in edit.amounts]
-    return _applied(edit, steps)
+    return (_applied(edit, steps) or []) * edit.times or None
 
 
 def _came_from(steps: list[Step], side: str) -> bool:
@@ -129,6 +122,8 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if "first" in flags:
         return _reordered(steps, edit)
     if edit.way in SIDES and not (flags - {"again", "instead"} or edit.amounts or edit.roles or edit.nth):
+        if edit.kinds and not any(isinstance(step, tuple(edit.kinds)) for step in steps):
+            return None  # `turn left again`, after a slide
         is_named = "again" in flags or edit.returns or (edit.is_named and not edit.kinds)
         if is_named or not edit.kinds:
             return _to_side(steps, edit.way == "left", is_named=is_named, goes_on=edit.goes_on)
@@ -169,20 +164,16 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return _to_side([step], edit.way == "left", is_named=True, goes_on=True)
     if edit.way not in ("", "back") or (edit.slides and not is_sideways(step)):
         return None
-    if edit.way == "back" and _heads_back(step):  # backwards once more, or back to where it came from?
+    if edit.way == "back" and getattr(step, "direction_rad", None) == DIRECTIONS["back"]:
         if not edit.goes_on:
-            raise Unclear("which_way")
+            raise Unclear("which_way")  # backwards once more, or back to where it came from?
     elif "other_way" in edit.flags or edit.way == "back" or "overshot" in edit.flags:
         [step] = inverse([step])
     if size is not None and ("overshot" in edit.flags or edit.slides or edit.way == "back"):
-        return [_with_value(step, size.number)] if _takes(step, size) else None
+        return [with_value(step, size.number)] if _takes(step, size) else None
     if "overshot" in edit.flags or (edit.slides and edit.way != "back"):
         return None
     return [_scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
-
-
-def _heads_back(step: Step) -> bool:
-    return isinstance(step, Drive) and step.direction_rad == DIRECTIONS["back"]
 
 
 def _reordered(steps: list[Step], edit: Edit) -> list[Step]:
@@ -219,23 +210,6 @@ def _takes(step: Step, size: Atom) -> bool:
     return isinstance(step, Drive if size.value == "length" else Turn)
 
 
-def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
-    """`Again with radius 1 m`, `the same but 50 cm sides`, `again, at 0.6 m/s`: where all that take it are alike."""
-    out = list(steps)
-    for size in edit.amounts:
-        role = "radius" if {"radius", "diameter"} & edit.roles else size.value
-        number = size.number / 2 if "diameter" in edit.roles else size.number
-        takers = tuple(edit.kinds) if Wait in edit.kinds else _TAKERS[role]
-        taken = [i for i, step in enumerate(out) if isinstance(step, takers)]
-        each = "each" in edit.flags
-        alike = each or role in ("speed", "rate") or len({_size(out[i]) for i in taken}) == 1
-        if not taken or not alike or (len(taken) > 1 and role in _OF_ONE and not (edit.roles or each)):
-            return None
-        for i in taken:
-            out[i] = _changed_to(out[i], role, number)
-    return out
-
-
 def _to_side(steps: list[Step], left: bool, *, is_named: bool, goes_on: bool) -> list[Step] | None:
     """`Now to the right` after a slide, `now one to the right` after a figure: in the manner of the motion before."""
     if len(steps) == 1 and is_sideways(steps[0]):
@@ -258,7 +232,7 @@ def _lengthened(steps: list[Step], edit: Edit) -> list[Step] | None:
     names = {"length": "distance_m", "angle": "angle_rad", "turns": "angle_rad", "time": "duration_s"}
     name = names.get(size.value, "")
     taken = [
-        step for step in steps if isinstance(step, _TAKERS.get(size.value, ())) and getattr(step, name, None)
+        step for step in steps if isinstance(step, TAKERS.get(size.value, ())) and getattr(step, name, None)
     ]
     if len(taken) != 1 or any(kind is not type(taken[0]) for kind in edit.kinds):
         raise Unclear("unclear_motion", size.text)
@@ -269,42 +243,19 @@ def _lengthened(steps: list[Step], edit: Edit) -> list[Step] | None:
     return resized(steps, dataclasses.replace(edit, amounts=[whole]))
 
 
-def _size(step: Step) -> float:
-    named = (getattr(step, name, None) for name in ("radius_m", "distance_m", "angle_rad", "duration_s"))
-    return round(next((value for value in named if value), 0.0), 6)
-
-
-def _changed_to(step: Step, role: str, number: float) -> Step:
-    if role == "speed" and isinstance(step, (Drive, Arc)):
-        return dataclasses.replace(step, speed_mps=number)
-    if role == "rate" and isinstance(step, Turn):
-        return dataclasses.replace(step, rate_radps=number)
-    if role == "time" and isinstance(step, Drive):
-        return dataclasses.replace(step, duration_s=number, distance_m=None)
-    if role == "time" and isinstance(step, Turn):
-        return dataclasses.replace(step, duration_s=number, angle_rad=None)
-    if role in ("angle", "turns") and isinstance(step, Arc):
-        return dataclasses.replace(step, angle_rad=number)
-    if role == "radius" and isinstance(step, Arc):
-        return dataclasses.replace(step, radius_m=number)
-    return Wait(number) if isinstance(step, Wait) else _with_value(step, number)
-
-
 def _replaced(steps: list[Step], new: Atom, old: Atom) -> list[Step] | None:
     """`Once more with 90 instead of 45`: wherever that amount was."""
     out, taken = list(steps), 0
     for i, step in enumerate(steps):
         turn = isinstance(step, Turn)
-        value = (
-            step.angle_rad if isinstance(step, Turn) else step.distance_m if isinstance(step, Drive) else None
-        )
+        value = getattr(step, "angle_rad" if turn else "distance_m", None)
         unit = math.radians(1.0) if turn and old.value == "number" else 1.0
         if (
             value is not None
             and abs(value - old.number * unit) < 1e-6
             and (old.value == "number" or _takes(step, old))
         ):
-            out[i] = _with_value(step, new.number * (unit if new.value == "number" else 1.0))
+            out[i] = with_value(step, new.number * (unit if new.value == "number" else 1.0))
             taken += 1
     kinds = {type(new_step) for new_step, step in zip(out, steps) if new_step is not step}
     return out if taken and len(kinds) == 1 else None
@@ -326,17 +277,10 @@ def _swapped(steps: list[Step]) -> list[Step] | None:
         at = [i for i, step in enumerate(steps) if isinstance(step, kind) and getattr(step, name)]
         if len(at) == 2:
             out, (one, two) = list(steps), at
-            out[one] = _with_value(steps[one], getattr(steps[two], name))
-            out[two] = _with_value(steps[two], getattr(steps[one], name))
+            out[one] = with_value(steps[one], getattr(steps[two], name))
+            out[two] = with_value(steps[two], getattr(steps[one], name))
             return out
     return None
-
-
-def _with_value(step: Step, value: float) -> Step:
-    """The step over that distance, or by that angle."""
-    if isinstance(step, Drive):
-        return dataclasses.replace(step, distance_m=value, duration_s=None)
-    return dataclasses.replace(step, angle_rad=value, duration_s=None) if isinstance(step, Turn) else step
 
 
 def mirrored(steps: list[Step], left: bool) -> list[Step] | None:

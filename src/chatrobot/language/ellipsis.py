@@ -35,6 +35,8 @@ class State:
     sizes: dict[str, float] = field(default_factory=dict)
     """The side or the radius of the shape that was driven before, if all of them were alike, metres."""
     angle: Atom | None = None
+    of_before: dict[str, Atom] = field(default_factory=dict)
+    """How far the last drive went and the last turn turned, though others came after it."""
     left: bool | None = None
     last: str = ""
     home: Pose | None = None
@@ -100,7 +102,7 @@ def _with_same_amount(frame: Frame, state: State) -> Frame:
     )
     if not (and_back or "same_amount" in frame.flags) or frame.has_extent:  # `back 40 cm and forward again`
         return frame
-    before = _amount_before(frame, state)
+    before = _amount_before(frame, state) or state.of_before.get("angle" if frame.turning else "length")
     if before is None:
         raise Unclear("nothing_before", frame.text)
     frame = frame.copy()

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache, lru_cache, partial
 
 from chatrobot.language.data_files import LANGUAGES, load_table
-from chatrobot.language.lexicon import lexicon
+from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.tokens import Atom, quantity, tokenise
@@ -129,7 +129,7 @@ def told_of_units(text: str) -> tuple[str, dict[str, str]] | None:
 @lru_cache(maxsize=128)
 def chosen_unit_m(text: str) -> float | None:
     """The length that a text says all numbers without a unit are in: `we count in feet`; None where it says none."""
-    meaning = lexicon().words.get((_unit_chosen(normalise(text)),))
+    meaning = lexicon().words.get(cut(_unit_chosen(normalise(text))))
     return float(meaning[0][1]) if meaning and meaning[0][0] == "unit_length" else None
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import resized
 from chatrobot.language.inverse import flipped
+from chatrobot.language.resizing import resized
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 

@@ -47,14 +47,40 @@ def _pattern(language: str, name: str) -> re.Pattern[str]:
     return re.compile(load_table(language, "dialogue_forms")[name])
 
 
+def without_nod(text: str, language: str) -> str:
+    """What is taught without the check at its end that it was taken in: `…, all right?`."""
+    return _pattern(language, "nod").sub("", text.strip())
+
+
+def read_definitions(text: str, language: str) -> list[Definition]:
+    """The words that a text teaches, one or one after the other: 我说苹果就是左转，我说香蕉就是右转."""
+    whole = read_definition(text, language)
+    if whole is None or "define_next" not in load_table(language, "dialogue_forms"):
+        return [whole] if whole else []
+    parts = _pattern(language, "define_next").split(without_nod(text, language))
+    found = [one for part in parts if (one := read_definition(part, language))]
+    return found if len(found) == len(parts) else [whole]
+
+
 def read_definition(text: str, language: str) -> Definition | None:
     """`When I say shuffle, you slide left 30 cm`."""
+    text = without_nod(text, language)
     for pattern in _patterns(language, "define"):
-        found = pattern.fullmatch(text.strip())
+        found = pattern.fullmatch(text)
         if found:
             name = found["name"].strip(" ,.:'\"")
             if name and not _pattern(language, "name_stop").search(name):
                 return Definition(name, found["body"].strip(" \"'”」"))
+    return None
+
+
+def read_usual(text: str, language: str) -> tuple[str, str] | None:
+    """What is to be usual (`distance` or `turn`) and how much: `if I don't say how far, go 25 cm`; else None."""
+    for kind in ("distance", "turn"):
+        for pattern in _patterns(language, f"usual_{kind}"):
+            found = pattern.fullmatch(without_nod(text, language).strip(" .!。"))
+            if found:
+                return kind, found["amount"]
     return None
 
 

@@ -136,7 +136,7 @@ class Frame:
         if atom.kind == "pace":
             if self.pace and self.pace != atom.value and {self.pace, atom.value} == {"slow", "fast"}:
                 return False
-            self.pace = self.pace if self.pace in ("max", "half_max") else atom.value
+            self.pace = self.pace if self.pace in ("max", "half", "half_max") else atom.value
         elif atom.kind == "flag":
             self.flags |= {atom.value, *_IMPLIED.get(atom.value, ())}
         elif atom.kind == "role":

@@ -48,17 +48,23 @@ class Gloss:
 
 
 def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
-    """`text` in English words. `names` are words of this dialogue and stay as they are."""
+    """`text` in English words. `names` are words of this dialogue and stay as they are, as does a word it teaches."""
     using = tables(language)
     written = {folded(word, language): word for word in _WORD.findall(text)}
     written |= {using.dialect[word]: said for word, said in written.items() if word in using.dialect}
     spoken = _WORD.sub(lambda word: using.dialect.get(word[0], word[0]), folded(normalise(text), language))
+    taught = {
+        tuple(said.split()) for found in using.taught.finditer(spoken) for said in found.groups() if said
+    }
+    names = {*names, *taught}
     plain = _replaced(spoken, using.before)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
     found = list(_words(UNIT.findall(plain), using, folded_names))
     said = {
         english.replace(VERB, "").strip(): " ".join(written.get(unit, unit) for unit in key)
-        for key, english in found
+        for key, english in reversed(
+            found
+        )  # of words that mean the same the first: it is the one that is taught
         if english
     }
     out = _in_order(_tidy(" ".join(english for _, english in found)), using)

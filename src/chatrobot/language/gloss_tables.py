@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any
 
 from chatrobot.language.compiled import compiled
-from chatrobot.language.data_files import expand, load_table
+from chatrobot.language.data_files import expand, in_full, load_table
 from chatrobot.language.rules import Rule, rules
 
 VERB = "^"
@@ -37,6 +37,7 @@ class Tables:
     after: Rules
     openers: re.Pattern[str]
     modals: re.Pattern[str]
+    taught: re.Pattern[str]
     joint: re.Pattern[str]
     number: re.Pattern[str]
     values: Mapping[str, int]
@@ -67,6 +68,7 @@ def tables(language: str) -> Tables:
         after=after,
         openers=re.compile(rf"\s*(?:(?:{_any_of(map(re.escape, rest['openers']))})\b[ ]*)*"),
         modals=re.compile(rest["modals"]),
+        taught=re.compile(in_full(rest["taught"], rest["parts"])),
         joint=re.compile(rf"(?<= )(?=(?:{'|'.join(rest['joints'])})\b)"),
         number=re.compile(numbers["pattern"].format(**listed)),
         values={**numbers["ones"], **numbers["teens"], **numbers["tens"]},

@@ -73,7 +73,8 @@ def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
     obstacle = meant.obstacle and replace(meant.obstacle, name=said.as_said(meant.obstacle.name))
     place = said.as_said(meant.remember_place).lower()
     things = [(meant.obstacle.name, obstacle.name)] if meant.obstacle and obstacle else []
-    for read, written in ((meant.unaccounted, part), (meant.remember_place, place), *things):
+    taught = {name: said.as_said(name).lower() for name in meant.define}
+    for read, written in ((meant.unaccounted, part), (meant.remember_place, place), *things, *taught.items()):
         reply = _quoted(reply, read, written)
     offer = meant.proposal
     if offer is not None:
@@ -84,7 +85,7 @@ def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
         unaccounted=part,
         proposal=offer,
         plan=_as_written(meant.plan, said) if meant.plan is not None else None,
-        define={said.as_said(name).lower(): plan for name, plan in meant.define.items()},
+        define={taught[name]: plan for name, plan in meant.define.items()},
         remember_place=place,
         obstacle=obstacle,
         renamed={

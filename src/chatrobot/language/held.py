@@ -15,7 +15,6 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.dialogue import refer
 from chatrobot.language.earlier_turns import answer_to_question
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.interpretation import Interpretation, asked_back
 from chatrobot.language.inverse import is_sideways
@@ -25,11 +24,13 @@ from chatrobot.language.normalise import normalise
 from chatrobot.language.part_changed import as_if_done
 from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.reading import Reading, frames_of
+from chatrobot.language.resizing import resized
 from chatrobot.language.rules import form, forms
 from chatrobot.language.selections import step_kinds
 from chatrobot.language.starting import without_hold
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import once_of
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
 
 _BESIDE = frozenset({"filler", "glue", "sep", "correction"})
@@ -270,8 +271,8 @@ def _affirmed(atoms: list[Atom]) -> list[Atom]:
 
 
 def _with_amount(steps: list[Step], size: Atom, reading: Reading) -> list[Step]:
-    if size.value == "times" and size.number == int(size.number) and 1 < size.number <= 20:
-        return steps * int(size.number)
+    if size.value == "times" and size.number in range(1, 21):
+        return steps[: once_of(steps)] * int(size.number)  # `no, three times`, of what was to be done twice
     turns = reversed(reading.context.dialogue.turns)
     unit_m = next((unit for unit in (said_unit_m(turn.text) for turn in turns) if unit), 0.0)
     if len(steps) == 1:

@@ -8,13 +8,14 @@ from chatrobot.language import forms
 from chatrobot.language.command import read_command
 from chatrobot.language.earlier_turns import answer_to_question, with_earlier_speed, with_earlier_unit
 from chatrobot.language.facts import told_of_units, with_measured_things
-from chatrobot.language.interpretation import Interpretation
-from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.interpretation import Interpretation, taught
+from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.selections import speed_for_all
 from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.usual import read_usual
 from chatrobot.plan.steps import Arc, Drive, Plan
 
 
@@ -25,13 +26,15 @@ def read_in_words(plain: str, reading: Reading) -> Interpretation:
         Unclear: where none of them is understood.
     """
     plain = with_measured_things(plain)
-    definition = forms.read_definition(plain, reading.language)
-    if definition is not None:
-        return _defined(definition, reading)
-    answered = read_remembering(plain, reading) or answer_to_question(plain, reading)
+    words = forms.read_definitions(plain, reading.language)
+    if words:
+        return _all_defined([_defined(one, reading) for one in words])
+    answered = (
+        read_usual(plain, reading) or read_remembering(plain, reading) or answer_to_question(plain, reading)
+    )
     if answered is not None:
         return answered
-    told = told_of_units(plain)
+    told = told_of_units(forms.without_nod(plain, reading.language))
     if told is not None:
         return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
     plain = with_earlier_unit(with_earlier_speed(plain, reading), reading)
@@ -59,6 +62,13 @@ def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
     inner = read_command(definition.body, reading)
     if inner.plan is None:
         return inner
-    language = reading.language
-    reply = say(language, "defined", name=definition.name, text=describe_plan(inner.plan, language))
-    return Interpretation("answered", reply, language, define={definition.name: inner.plan})
+    return taught(definition.name, inner.plan, reading.language)
+
+
+def _all_defined(words: list[Interpretation]) -> Interpretation:
+    """All the words of one text, or the first that is not understood."""
+    failed = next((one for one in words if not one.define), None)
+    if failed is not None or len(words) == 1:
+        return failed or words[0]
+    defined = {name: plan for one in words for name, plan in one.define.items()}
+    return replace(words[0], reply=" ".join(one.reply for one in words), define=defined)

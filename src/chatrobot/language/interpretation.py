@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal, get_args
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, NamedTuple, get_args
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.ledger import Walk
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.steps import Arc, Drive, Plan, Repeat, Step, Turn, Wait
 from chatrobot.plan.text import parse_plan
 
 LanguageCode = Literal["en", "zh", "de"]
 _CODES: Mapping[str, LanguageCode] = {code: code for code in get_args(LanguageCode)}
 Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
+
+
+_ROUNDED = ("distance_m", "duration_s", "radius_m", "speed_mps", "angle_rad")
 
 
 @dataclass(frozen=True)
@@ -27,16 +31,29 @@ class Placement:
     at_m: tuple[float, float] | None = None
 
 
+class Usual(NamedTuple):
+    """What holds where a text does not say it, as a person set it; None: the profile's."""
+
+    speed_mps: float | None = None
+    rate_radps: float | None = None
+    distance_m: float | None = None
+    turn_rad: float | None = None
+
+    def changed(self, new: Usual) -> Usual:
+        """The same with what `new` sets."""
+        return Usual(*(old if value is None else value for old, value in zip(self, new)))
+
+
 @dataclass(frozen=True)
 class Interpretation:
     """What an utterance means.
 
     `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
-    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last eight
+    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last seven
     are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
     the robot stands now, `walk` what of the ledger of turns the plan undoes or does again; `corrects`: it puts the
     turn before right; `renamed`: what a taught place or word is called from now on, nothing where it is forgotten;
-    `obstacle`: what is to be put into the simulation or taken out of it.
+    `obstacle`: what is to be put into the simulation or taken out of it; `usual`: what is set from now on.
     """
 
     outcome: Outcome
@@ -53,8 +70,7 @@ class Interpretation:
     corrects: bool = False
     renamed: Mapping[str, str] = field(default_factory=dict)
     obstacle: Placement | None = None
-    default_speed_mps: float | None = None
-    default_rate_radps: float | None = None
+    usual: Usual = field(default_factory=Usual)
 
     @property
     def is_held(self) -> bool:
@@ -99,10 +115,37 @@ def planned(
         Unclear: where there are none.
     """
     try:
-        plan = Plan(tuple(steps))
+        plan = Plan(tuple(map(_rounded, steps)))
     except ValueError:
         raise Unclear("nothing_to_do") from None
     return Interpretation("plan", describe_plan(plan, language), language, plan, append, walk=walk)
+
+
+def _rounded(step: Step) -> Step:
+    """Return the step without what arithmetic adds to its numbers: 0.7 m, not 0.7000000000000001 m."""
+    if isinstance(step, Repeat):
+        return replace(step, steps=tuple(map(_rounded, step.steps)))
+    if not isinstance(step, (Drive, Turn, Arc, Wait)):
+        return step
+    values = {name: getattr(step, name, None) for name in _ROUNDED}
+    told = {name: value for name, value in values.items() if isinstance(value, float)}
+    rounded: dict[str, Any] = {
+        name: math.radians(_near(math.degrees(value))) if name.endswith("_rad") else _near(value)
+        for name, value in told.items()
+    }
+    return replace(step, **rounded)
+
+
+def _near(value: float) -> float:
+    """Return the short number that is meant, where it is as near as that; a seventh stays what it is."""
+    short = round(value, 6)
+    return short if abs(value - short) < 1e-9 else value
+
+
+def taught(name: str, plan: Plan, language: LanguageCode) -> Interpretation:
+    """The answer that a word means a plan from now on."""
+    reply = say(language, "defined", name=name, text=describe_plan(plan, language))
+    return Interpretation("answered", reply, language, define={name: plan})
 
 
 def stopped(language: LanguageCode) -> Interpretation:

@@ -67,7 +67,7 @@ from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk,
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional
-from chatrobot.language.waiting import amended, of_held, of_offered
+from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
@@ -108,7 +108,7 @@ class OfflineInterpreter:
         text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        reason = not_ordered(text, language, meant.plan) if offers else ""
+        reason = not_ordered(text, language, meant.plan, context.dialogue) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
         if hardly_ordered(said, language) or may_be_talk(meant, text, language, context):
@@ -151,7 +151,7 @@ class OfflineInterpreter:
     def _remarked(self, text: str, reading: Reading) -> Interpretation | None:
         """What a remark on the turn before asks for, proposed: `oops`, `wrong way`."""
         turns, order = reading.context.dialogue.turns, asked_by_remark(text, reading.language)
-        if not order or not turns or not turns[-1].moved:
+        if not order or not any(turn.moved for turn in turns[-3:]):  # `faster`, after a `thanks`
             return None
         try:
             return proposed(self._interpreted(order, reading.language, reading.context), reading.language)
@@ -185,7 +185,7 @@ class OfflineInterpreter:
         return proposed(meant, language, code="held") or (meant if meant.define else None)
 
     def _of_waiting(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
-        """What a text says of a plan that waits for a `go` or a yes; None where it says nothing of one."""
+        """What a text says of a plan that waits for a `go` or a yes, or of a word just taught; else None."""
 
         def meant(part: str, own: Context) -> Interpretation:
             return self._meant(part, language, own)
@@ -194,7 +194,8 @@ class OfflineInterpreter:
             return self._interpreted(part, language, own)
 
         reading = Reading(language, context, self._profile)
-        return of_held(text, reading, meant, interpreted) or of_offered(text, reading, meant)
+        found = of_held(text, reading, meant, interpreted) or of_offered(text, reading, meant)
+        return found or of_taught(text, reading, meant)
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         """What is ordered. A plan that no clause orders is not driven; talk beside an order is passed over.

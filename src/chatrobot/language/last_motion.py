@@ -147,7 +147,12 @@ def _extent(step: Step) -> float:
 @lru_cache(maxsize=128)
 def shapes_said(text: str) -> frozenset[str]:
     """The shapes that a text names."""
-    return frozenset(atom.value for atom in _atoms(plain_text(text)) if atom.kind == "shape")
+    return frozenset(atom.value for atom in atoms_said(text) if atom.kind == "shape")
+
+
+def atoms_said(text: str) -> list[Atom]:
+    """What was said in an earlier turn, as words that mean something."""
+    return _atoms(plain_text(text))
 
 
 def _atoms(text: str) -> list[Atom]:
@@ -200,7 +205,20 @@ def state_after(context: Context) -> State:
             if step.angle_rad:
                 state.angle = quantity("angle", step.angle_rad, f"{math.degrees(step.angle_rad):g}°")
             break
+    state.of_before = _amounts_of_before(context.dialogue)
     return state
+
+
+def _amounts_of_before(dialogue: Dialogue) -> dict[str, Atom]:
+    """The distance of the last drive and the angle of the last turn: 左转75度, 前进半米, 往右转刚才转的角度."""
+    found: dict[str, Atom] = {}
+    plans = (turn.plan for turn in reversed(dialogue.turns) if turn.plan is not None and turn.walk is None)
+    for step in (step for plan in plans for step in reversed(plan.steps)):
+        if isinstance(step, Drive) and step.distance_m:
+            found.setdefault("length", quantity("length", step.distance_m, f"{step.distance_m:g} m"))
+        elif isinstance(step, Turn) and step.angle_rad:
+            found.setdefault("angle", quantity("angle", step.angle_rad, f"{math.degrees(step.angle_rad):g}°"))
+    return found
 
 
 def _name_of(direction_rad: float) -> str:

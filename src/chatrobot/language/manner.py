@@ -19,7 +19,8 @@ SLOW, FAST = 0.5, 1.7
 class Pace:
     """The robot's limits and what counts as usual in this dialogue. None: the profile's default, unsaid.
 
-    `before_mps` and `before_radps` were said of the last motion: `another metre at half that speed`.
+    `before_mps` and `before_radps` were said of the last motion: `another metre at half that speed`. `unsaid_m` and
+    `unsaid_rad` are what a person set for a drive and a turn without an amount.
     """
 
     profile: RobotProfile
@@ -27,6 +28,18 @@ class Pace:
     rate_radps: float | None = None
     before_mps: float | None = None
     before_radps: float | None = None
+    unsaid_m: float | None = None
+    unsaid_rad: float | None = None
+
+    @property
+    def distance_m(self) -> float:
+        """How far a drive goes that says no distance."""
+        return self.unsaid_m or self.profile.defaults.distance_m
+
+    @property
+    def turn_rad(self) -> float:
+        """How far a turn goes that says no angle, rad."""
+        return self.unsaid_rad or self.profile.defaults.turn_rad
 
     def speed(self, frame: Frame) -> float | None:
         """The linear speed a frame asks for, m/s; None where it says nothing."""
@@ -73,6 +86,7 @@ def _relative(frame: Frame, default: float, before: float, maximum: float) -> fl
         "slow": SLOW * default,
         "fast": min(FAST * default, maximum),
         "max": maximum,
-        "half_max": maximum / 2 if before == default else before / 2,  # 太快了，用一半的速度退回来
+        "half_max": maximum / 2,
+        "half": before / 2,  # 太快了，用一半的速度退回来
     }
     return factors.get(frame.pace)

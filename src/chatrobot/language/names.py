@@ -107,6 +107,10 @@ def names_in(context: Context) -> dict[Key, Meaning]:
     names: dict[Key, Meaning] = {}
     for name in (*context.world_places, *dialogue.places):
         names[cut(normalise(word_of(name)))] = (("place", name),)
+        if len(name) == 1:  # A is also called `point A`, 去A点
+            for language in LANGUAGES:
+                for written in load_table(language, "dialogue_forms").get("letter_places", ()):
+                    names[cut(written.format(letter=name))] = (("place", name),)
     for word, plan in dialogue.words.items():
         counter = ("counter", word) in lexicon().words.get(cut(word), ())
         if counter and unit_length_m(plan) is not None:

@@ -27,6 +27,12 @@ def read_naming(plain: str, language: LanguageCode, context: Context) -> Interpr
             name = _known(found["name"], context) if found else ""
             if found and name:
                 return _renamed(name, found.groupdict().get("new") or "", language, context)
+    for pattern in forms(language, "naming", "moved"):
+        found = pattern.fullmatch(said)
+        name = _known(found["name"], context) if found else ""
+        if found and name and _is_own(name, context):
+            reply = say(language, "step_remember", place=name)
+            return Interpretation("answered", reply, language, remember_place=name)
     return None
 
 

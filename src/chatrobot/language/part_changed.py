@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from chatrobot.language.context import Context
 from chatrobot.language.dialogue import refer
+from chatrobot.language.first_side import begun_on
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.selections import chosen, pointed_at
@@ -16,7 +17,8 @@ _CHANGING = frozenset({"q", "dir", "rot", "pace", "flag"})
 
 
 def part_changed(plain: str, reading: Reading) -> list[Step] | None:
-    """The steps of a part that a normalised text points at, as the rest of the text wants them now.
+    """The steps of a part that a normalised text points at, as the rest of the text wants them now; all of them,
+    begun on a side that it names.
 
     None where it points at no part, or says more of it than a change.
 
@@ -24,6 +26,9 @@ def part_changed(plain: str, reading: Reading) -> list[Step] | None:
         Unclear: there is no such part, or the change fits it not.
     """
     dialogue = reading.context.dialogue
+    begun = begun_on(plain, reading.language, dialogue)
+    if begun is not None:
+        return begun
     found = pointed_at(plain, reading.language) if dialogue.last_motion is not None else None
     if found is None:
         return None

@@ -83,16 +83,22 @@ def insert(script: Script, frame: Frame, *, counted: bool = False) -> None:
         return
     if len(moving) < 2 and not ("after_each" in frame.flags and moving):
         raise Unclear("between_what", frame.text)
-    if "between" in frame.flags and (
-        _PASSES & {text[:2] for text in frame.texts} or _parts_passes(frame, counted)
-    ):
+    parted = "between" in frame.flags and _PASSES & {text[:2] for text in frame.texts}
+    if parted or _parts_passes(frame, counted) or (counted and follows_passes(frame)):
         moving = _passes(moving)
+    lead = len(moving) - _alike(moving) if pause and "between" in frame.flags else 0
     units: list[list[Step]] = []
     for k, unit in enumerate(moving):
         units.append(unit)
-        if k + 1 < len(moving) or ("after_each" in frame.flags and not pause):
+        if lead <= k < len(moving) - 1 or ("after_each" in frame.flags and not pause):
             units.append(steps)
     script.units = units
+
+
+def _alike(units: list[list[Step]]) -> int:
+    """How many at the end are the same, of three or more; else all: `turn left, then 20 cm three times`."""
+    alike = next((n for n, unit in enumerate(reversed(units)) if unit != units[-1]), len(units))
+    return alike if alike > 2 else len(units)
 
 
 def _sides(shape: list[Step]) -> list[list[Step]]:
@@ -106,7 +112,18 @@ def _sides(shape: list[Step]) -> list[list[Step]]:
 def _parts_passes(frame: Frame, counted: bool) -> bool:
     """`forward 1 m and back 1 m, three times, 5 s in between`: between the times, where no motion is named."""
     between = next((text for text in frame.texts if "between" in text.split()), "")
-    return counted and bool(between) and not _motions() & set(between.split())
+    return counted and "between" in frame.flags and bool(between) and not _motions() & set(between.split())
+
+
+def follows_passes(frame: Frame) -> bool:
+    """`…, resting 2 s after each repetition`: behind all that is done each time, or between the times."""
+    said = {text.split()[-1] for text in frame.texts}
+    return bool(frame.flags & {"after_each", "between"} and said & _words_for_passes())
+
+
+@cache
+def _words_for_passes() -> frozenset[str]:
+    return frozenset(word for code in LANGUAGES for word in load_table(code, "repeats").get("passes", ()))
 
 
 def _passes(units: list[list[Step]]) -> list[list[Step]]:

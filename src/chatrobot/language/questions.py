@@ -68,10 +68,18 @@ def orders(text: str, language: str) -> bool:
 
 
 def courtesy_of(text: str, language: str) -> str:
-    """`greeting`, `thanks` or `parting` where a text is that and nothing else; else an empty string."""
-    said = text.strip(" ,.!?~")
-    if len(said) > _LONGEST_COURTESY:
+    """`greeting`, `thanks`, `praise` or `parting` where a text is that and nothing else; else an empty string.
+
+    Of several, each a sentence or a part of one, it is the last: `thanks, bye`.
+    """
+    said = text.strip(" ,.!?~。，！")
+    if len(said) > _LONGEST_COURTESY or text.rstrip().endswith(("?", "？")):
         return ""
+    kinds = [_courtesy(part, language) for part in re.split(r"[,.!，。！~]+ *", said)]
+    return _courtesy(said, language) or (kinds[-1] if all(kinds) else "")
+
+
+def _courtesy(said: str, language: str) -> str:
     return next((name for name, pattern in _courtesies(language) if pattern.fullmatch(said)), "")
 
 
@@ -179,7 +187,7 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
         "path_m": state.path_m,
         "max_speed_mps": profile.limits.max_speed_mps,
         "max_rate_radps": profile.limits.max_rate_radps,
-        "default_speed_mps": context.dialogue.default_speed_mps or profile.defaults.speed_mps,
+        "default_speed_mps": context.dialogue.usual.speed_mps or profile.defaults.speed_mps,
         "title": profile.title,
         "places": places_known(context, language),
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else None,

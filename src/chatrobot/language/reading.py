@@ -69,9 +69,10 @@ class Reading:
     @property
     def pace(self) -> Pace:
         """The robot's limits, and the speeds that are usual in this dialogue."""
-        dialogue = self.context.dialogue
-        before = speeds_said(dialogue)
-        return Pace(self.profile, dialogue.default_speed_mps, dialogue.default_rate_radps, *before)
+        usual, before = self.context.dialogue.usual, speeds_said(self.context.dialogue)
+        return Pace(
+            self.profile, usual.speed_mps, usual.rate_radps, *before, usual.distance_m, usual.turn_rad
+        )
 
     def atoms(self, plain: str) -> list[Atom]:
         """The atoms of a normalised text."""
@@ -127,7 +128,8 @@ class Reading:
         context = self.context
         poses = {**context.world_places, **{n: p.pose for n, p in dialogue.places.items() if p.usable}}
         places = {
-            name: Go(p.x_m, p.y_m, rounded_angle(p.yaw_rad, 2), place=name) for name, p in poses.items()
+            name: Go(round(p.x_m, 6), round(p.y_m, 6), rounded_angle(p.yaw_rad, 2), place=name)
+            for name, p in poses.items()
         }
         for name in context.places_without_heading:
             places[name] = replace(places[name], yaw_rad=None)

@@ -14,6 +14,9 @@ from chatrobot.language.script import Script, count_of, whole_count
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import MAX_REPEAT, Drive, Repeat, Step, Turn, Wait
 
+_MOVES = frozenset({"move", "step", "leg", "turn"})
+"""What a count in all counts: each motion by itself."""
+
 
 @cache
 def _whole() -> frozenset[str]:
@@ -186,6 +189,25 @@ def repeated(units: list[list[Step]], count: int) -> list[list[Step]]:
     if count * len(whole) > 400:
         return [[Repeat(count, tuple(whole))]]
     return [list(unit) for unit in units * count]
+
+
+def counts_moves(frame: Frame) -> bool:
+    """`six moves in all`: of all the motions, and not of the times that they are done together."""
+    count = frame.q.get("count")
+    return count is not None and "total" in frame.flags and count.role in _MOVES and not frame.has_extent
+
+
+def by_turns(units: list[list[Step]], count: int) -> list[list[Step]]:
+    """One unit after the other, from the first again after the last, so many in all: left, right, left."""
+    moves: list[list[Step]] = []
+    for unit in units:  # a pause belongs to the motion before it
+        if moves and all(isinstance(step, Wait) for step in unit):
+            moves[-1] = [*moves[-1], *unit]
+        else:
+            moves.append(list(unit))
+    if count < len(moves) or count > MAX_REPEAT:
+        raise Unclear("bad_count")
+    return [moves[k % len(moves)] for k in range(count)]
 
 
 def _until_done(units: list[list[Step]], count: int) -> list[list[Step]]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import cache
 
-from chatrobot.core.geometry import ORIGIN
+from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.driving import drive
 from chatrobot.language.ellipsis import State
@@ -17,6 +17,7 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import PACES
 from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
 
 _BETWEEN = frozenset({"glue", "filler"})
@@ -58,8 +59,10 @@ def goes_back(frame: Frame, state: State) -> bool:
     """`…, then back`: the way back, where there is a way to go back."""
     sideways = bool(state.steps) and state.last == "drive" and state.direction in SIDES
     verbs = ("", "go", "slide", "shift") if sideways else ("", "go")
-    bare = frame.verb in verbs and frame.direction == "back" and not frame.q and "bit" not in frame.flags
-    return bare and bool(state.steps) and frame.texts[-1:] == ["back"]
+    bare = frame.verb in verbs and frame.direction == "back" and "bit" not in frame.flags
+    amounts = [amount.text for amount in frame.q.values()]
+    said = [text for text in frame.texts if text not in amounts]
+    return bare and frame.q.keys() <= PACES and bool(state.steps) and "back" in said[-1 - bool(frame.pace) :]
 
 
 def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
@@ -70,7 +73,7 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     """
     if set(frame.q) & {"length", "time"} and state.last == "drive" and not frame.direction:
         return _some_way_back(frame, state, pace)
-    if set(frame.q) - {"speed", "percent", "fold", "faster"}:
+    if set(frame.q) - PACES:
         raise Unclear("unclear_motion", frame.text)
     if "bit" in frame.flags and not is_chinese(frame.text):
         raise Unclear("how_far", frame.text)  # `…, then come back a little`
@@ -79,7 +82,7 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     speed = pace.speed(frame)
     if "same_way" in frame.flags:
         return inverse(state.steps, speed)
-    drives: list[Step] = [step for step in state.steps if not isinstance(step, Wait)]
+    drives: list[Step] = [step for step in _since_back(state.steps) if not isinstance(step, Wait)]
     straight = bool(drives) and all(isinstance(step, Drive) and step.distance_m for step in drives)
     if straight and not _are_back(drives):
         return inverse(list(drives), speed)
@@ -116,10 +119,22 @@ def partly_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
     return [Turn(amount.number, left=not state.left, rate_radps=pace.rate(frame))]
 
 
-def turned_back(frame: Frame, state: State) -> list[Step]:
+def turned_back(state: State) -> list[Step]:
     """`turn left 10 degrees and back`: the turns undone where nothing else was done, half turns apart; else none."""
-    turned = [step for step in state.steps if not isinstance(step, Wait)]
-    return inverse(turned) if not frame.verb and all(map(_turns_aside, turned)) else []
+    turned = [step for step in _since_back(state.steps) if not isinstance(step, Wait)]
+    return inverse(turned) if all(map(_turns_aside, turned)) else []
+
+
+def _since_back(steps: Sequence[Step]) -> list[Step]:
+    """What was done since it last stood as in the beginning: after `right 40 degrees and back, left 20`, the last."""
+    ends = (pose_after(steps[:k], ORIGIN) for k in range(len(steps) - 1, 0, -1))
+    back = (end is not None and _is_origin(end) for end in ends)
+    k = next((len(steps) - 1 - i for i, is_back in enumerate(back) if is_back), 0)
+    return list(steps[k:])
+
+
+def _is_origin(pose: Pose) -> bool:
+    return pose.distance_to(ORIGIN) < _AT_START_M and abs(math.remainder(pose.yaw_rad, 2 * math.pi)) < 1e-6
 
 
 def _turns_aside(step: Step) -> bool:

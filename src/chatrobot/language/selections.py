@@ -14,11 +14,13 @@ from typing import Any
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
+from chatrobot.language.earlier_poses import names_earlier_pose, to_earlier_pose
 from chatrobot.language.edit_words import Edit
-from chatrobot.language.edits import resized
 from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
-from chatrobot.language.last_motion import laps, motion_meant
+from chatrobot.language.last_motion import laps, motion_meant, shapes_said
 from chatrobot.language.measures import whole_number
+from chatrobot.language.rephrase import plain_text
+from chatrobot.language.resizing import resized
 from chatrobot.language.rules import Form, forms_of
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -73,8 +75,11 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
     """
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = next((kind for kind, words in table["kinds"].items() if said.get("kind", "") in words), "step")
-    units = _units(dialogue, kind)
+    units = _units(dialogue, kind, language)
     at, count = _number(said, "nth", table), _number(said, "count", table) or 1
+    last = dialogue.last_motion
+    if kind in ("step", "move") and last is not None and len(shapes_said(last.text)) > 1:
+        raise Unclear("nothing_before", plain)  # `the second one`, of a square and a circle
     if (kind == "move" or not said.get("kind")) and (at, count) == (-1, 1):
         return []  # `the last move` is the whole of the last motion
     if at:
@@ -99,7 +104,8 @@ def part_of_before(
         Unclear: there is no such part.
     """
     return (
-        left_out(plain, language, dialogue)
+        to_earlier_pose(plain, language, dialogue)
+        or left_out(plain, language, dialogue)
         or further(plain, language, dialogue)
         or with_part_resized(plain, language, dialogue, atoms_of)
         or listed(plain, language, dialogue)
@@ -110,7 +116,9 @@ def part_of_before(
 def wants_part(plain: str, language: str) -> bool:
     """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
     names = ("forms", *_WITHOUT, "resized", "listed", "further")
-    return any(form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name))
+    return names_earlier_pose(plain, language) or any(
+        form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name)
+    )
 
 
 def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
@@ -150,11 +158,8 @@ def with_part_resized(
     if last is None or last.plan is None or found is None:
         return None
     atoms = [atom for atom in atoms_of(found["size"]) if atom.kind not in SILENT]
-    table, said, steps = (
-        load_table(language, "selections"),
-        found.groupdict(default=""),
-        list(last.plan.steps),
-    )
+    table, said = load_table(language, "selections"), found.groupdict(default="")
+    steps = list(last.plan.steps)
     sizes = [atom for atom in atoms if atom.kind == "q"]
     if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "verb") for atom in atoms):
         return None
@@ -200,7 +205,7 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     if last is None or last.plan is None or found is None:
         return None
     table, said = load_table(language, "selections"), found.groupdict(default="")
-    units = _units(dialogue, "step")
+    units = _units(dialogue, "step", language)
     at = [_number({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
     at = [n + len(units) + 1 if n < 0 else n for n in at]
     if not all(1 <= n <= len(units) for n in at) or len(units) < 2:
@@ -221,12 +226,14 @@ def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
         Unclear: nobody can tell what that is, or how much.
     """
     table = load_table(language, "selections")
-    words = table.get("spoken_of", ())
     is_up_to = any(form.search(plain) for form in _forms(language, "up_to"))
     if (dialogue.last_motion is not None and is_up_to) or plain.strip(" .!") in table.get("pointing", ()):
         raise Unclear("unclear_motion", plain[:60])
+    moved = [turn.plan.steps for turn in dialogue.turns if turn.plan is not None]
+    if len(moved) > 1 and len(moved[-1]) == 1 and plain.startswith(tuple(table.get("several", ()))):
+        raise Unclear("nothing_before", plain[:60])  # `do them again`, after one motion: how many of them?
     last = dialogue.turns[-1] if dialogue.turns else None
-    if last is not None and last.plan is None and _ends_with(plain.strip(" .!"), words):
+    if last is not None and last.plan is None and _ends_with(plain.strip(" .!"), table.get("spoken_of", ())):
         raise Unclear("nothing_before", plain[:60])
 
 
@@ -253,9 +260,18 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     return steps[:once] * count if once < len(steps) else None
 
 
-def _units(dialogue: Dialogue, kind: str) -> list[list[Step]]:
-    """What is counted: the steps of that kind of the last motion, or the turns that moved."""
+def _units(dialogue: Dialogue, kind: str, language: str) -> list[list[Step]]:
+    """What is counted: the steps of that kind of the last motion, or the turns that moved.
+
+    Parts of a motion that were done once more since are not counted: `the second step again`, `now the first one`.
+    """
     told = [turn for turn in dialogue.turns if turn.plan is not None and turn.walk is None]
+    whole = next(
+        (i for i in reversed(range(len(told))) if not pointed_at(plain_text(told[i].text), language)), -1
+    )
+    picked_from = told[whole].plan if whole >= 0 else None
+    if picked_from is not None and len(picked_from.steps) > 1 and kind != "said":
+        told = told[: whole + 1]
     turns = [list(turn.plan.steps) for turn in told if turn.plan is not None] or [[]]
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]

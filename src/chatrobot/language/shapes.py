@@ -89,6 +89,8 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     goes_on = frame.direction in ("forward", "back") and set(frame.q) == {"length"} and not frame.roles
     if goes_on and head.shape in ("quarter_circle", "half_circle", "circle"):
         return False  # `a quarter circle of 1 m radius, 50 cm straight`
+    if frame.shape and frame.sided and "length" in frame.q and "length" in head.q:
+        return False  # `half circle left with a radius of 40 cm, half circle right with …`: each has its own
     is_straight = head.shape.startswith(_STRAIGHT)
     if frame.shape and (is_straight or frame.shape not in ("half_circle", "quarter_circle", "circle")):
         return False

@@ -8,7 +8,7 @@ from functools import cache
 
 from chatrobot.language.acts import MAYBE_ORDER, Read, read_acts
 from chatrobot.language.beside import Aside, asides, says_motion_alone
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.lexicon import lexicon
@@ -19,7 +19,7 @@ from chatrobot.language.rules import Rule, form, rules
 from chatrobot.language.set_off import is_doubted
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
-from chatrobot.plan.steps import Plan, RawTwist, Step
+from chatrobot.plan.steps import Drive, Plan, RawTwist, Step, Turn
 
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
@@ -33,12 +33,14 @@ TOLD = 1.5
 """A clause with higher odds of an aside tells of something, so that a motion without an amount beside it may, too."""
 
 
-def not_ordered(plain: str, language: str, plan: Plan | None) -> str:
+def not_ordered(plain: str, language: str, plan: Plan | None, dialogue: Dialogue) -> str:
     """Why what a normalised text seems to order is not to be done, as a reason; "" where nothing says so.
 
     It is taken back at its end (`go ahead, no wait, don't go`), or is told of others, or was quoted, or what ends
-    it is for no sensor to tell.
+    it is for no sensor to tell, or it only says yes to what was just done.
     """
+    if plan is not None and _confirms(plain, language, plan, dialogue):
+        return "nothing_to_do"
     if plan is not None and _has_twists(plan.steps) and clauses_of(plain)[0].tells_of_command:
         return "nothing_to_do"
     if form(language, "starting", "withdrawn").search(plain):
@@ -46,6 +48,17 @@ def not_ordered(plain: str, language: str, plan: Plan | None) -> str:
     if form(language, "starting", "bounded").search(plain):
         return "condition"
     return "nothing_to_do" if _says(plain, language, "told") else ""
+
+
+def _confirms(plain: str, language: str, plan: Plan, dialogue: Dialogue) -> bool:
+    """对，左转，我打错字了: whether a yes only names the way of the motion before, and answers nothing."""
+    last = dialogue.turns[-1].plan if dialogue.turns else None
+    if last is None or dialogue.pending or not form(language, "talk", "confirms").fullmatch(plain.strip()):
+        return False
+    done, meant = last.steps[-1], plan.steps[0]
+    if isinstance(done, Turn) and isinstance(meant, Turn):
+        return done.left == meant.left
+    return isinstance(done, Drive) and isinstance(meant, Drive) and done.direction_rad == meant.direction_rad
 
 
 def hardly_ordered(plain: str, language: str) -> bool:
@@ -126,7 +139,7 @@ def calls_somebody(reads: Sequence[Read], language: str) -> bool:
     ):
         return False
     measured = any(clause.measures for clause in clauses)
-    if any(_tells_somebody(clause) and (clause.measures or not measured) for clause in clauses):
+    if any(_tells_somebody(clause, pronouns) and (clause.measures or not measured) for clause in clauses):
         return True
     begin = next((i for i, clause in enumerate(clauses) if clause.moves), len(clauses))
     before, after = clauses[:begin], clauses[begin + 1 : begin + 2]
@@ -137,10 +150,12 @@ def calls_somebody(reads: Sequence[Read], language: str) -> bool:
     return any("person" in labels and labels <= _CALLING for labels in map(_labels, [*before, *after]))
 
 
-def _tells_somebody(clause: Clause) -> bool:
-    """大家都退后: whether somebody else is told to do a motion."""
+def _tells_somebody(clause: Clause, pronouns: Sequence[str]) -> bool:
+    """大家都退后, 奶奶您慢点儿走: whether somebody else is told to do a motion."""
     said = [sign for sign in clause.signs if sign.label not in _POLITE]
     labels = [sign.label for sign in said]
+    if labels[:2] == ["person", "robot"] and said[1].text in pronouns:
+        del labels[1]
     return labels[:1] == ["person"] and "VERB" in labels and not {"robot", "request", "past"} & {*labels}
 
 

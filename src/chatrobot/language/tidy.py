@@ -149,7 +149,7 @@ def _relative_speeds(atoms: Sequence[Atom]) -> list[Atom]:
         elif is_kind(atoms, i, "q", "times") and is_kind(atoms, j, "pace", "default"):
             out.append(quantity("fold", atom.number, atom.text))
             i = j + 1
-        elif is_kind(atoms, i, "pace", "default") and is_kind(atoms, j, "pace", "half_max"):
+        elif is_kind(atoms, i, "pace", "default") and is_kind(atoms, j, "pace", "half"):
             out.append(quantity("fold", 0.5, f"{atom.text} {atoms[j].text}"))
             i = j + 1
         elif fraction and atom.number < 1 and is_kind(atoms, j, "pace", "default"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context
@@ -10,8 +11,11 @@ from chatrobot.language.frames import GO, Frame
 from chatrobot.language.last_motion import steps_of, unit_driven_m
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.manner import Pace
+from chatrobot.language.meant import is_correction
+from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import NEAR_M, NEAR_RAD, once_of
 from chatrobot.plan.steps import Drive, Step, Turn
 
 
@@ -22,11 +26,15 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         Unclear: where the last motion was none that a total fits.
     """
     last = context.dialogue.last_motion
-    steps = steps_of(last)
-    assert last is not None
-    moved = last.end_pose.relative_to(last.start_pose)
+    if last is None:
+        raise Unclear("nothing_before", whole.text)
+    ordered = _ordered_first(context.dialogue.turns, last)
+    steps = steps_of(ordered)
+    moved = last.end_pose.relative_to(ordered.start_pose)
     step = steps[-1]
     said = set(whole.q)
+    if said == {"times"} and not whole.moves:
+        return _rounds_missing(whole, steps, context)
     whole = _with_unit(whole, last, step)
     if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
         done = math.hypot(moved.x_m, moved.y_m)
@@ -37,7 +45,9 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         missing = _missing(whole, whole.q["length"].number, done)
         if missing <= 0.0 and whole.verb in GO:
             raise Unclear("contradiction", whole.text)  # `go on to 1 m`, after 2 m
-        if missing > 0.005:
+        if abs(missing) < NEAR_M:
+            raise Unclear("contradiction", whole.text)  # `two, not three`, after 2 m: it is there
+        if missing > 0.0:
             return [
                 Drive(
                     missing, direction_rad=step.direction_rad, speed_mps=pace.speed(whole) or step.speed_mps
@@ -47,8 +57,37 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     angle = whole.q.get("angle") or whole.q.get("turns")
     if angle and isinstance(step, Turn) and len(steps) == 1:
         missing = _missing(whole, angle.number, abs(moved.yaw_rad))
+        if abs(missing) < NEAR_RAD:
+            raise Unclear("contradiction", whole.text)
         return [Turn(abs(missing), left=step.left if missing > 0 else not step.left)]
     raise Unclear("nothing_before", whole.text)
+
+
+def _ordered_first(turns: Sequence[TurnRecord], last: TurnRecord) -> TurnRecord:
+    """The turn that the last one put right, if it did: `1 m`, `no, 2 m`, `no, 1.5` is of the first."""
+    moved = [turn for turn in turns if turn.plan is not None]
+    while is_correction(last) and moved.index(last) > 0:
+        last = moved[moved.index(last) - 1]
+    return last
+
+
+def _rounds_missing(whole: Frame, steps: Sequence[Step], context: Context) -> list[Step]:
+    """加上刚才的一共做五次: the motion before as often as is missing to so many times.
+
+    Raises:
+        Unclear: where it was done as often already.
+    """
+    once = list(steps[: once_of(list(steps))])
+    done = 0
+    for turn in reversed([turn for turn in context.dialogue.turns if turn.plan is not None]):
+        same = list(turn.plan.steps) if turn.plan is not None else []
+        if same != once * (len(same) // len(once)):
+            break
+        done += len(same) // len(once)
+    missing = whole_number(whole.q["times"].number, whole.q["times"].text) - done
+    if missing < 1:
+        raise Unclear("contradiction", whole.text)
+    return once * missing
 
 
 def _missing(whole: Frame, told: float, done: float) -> float:

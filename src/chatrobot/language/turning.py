@@ -45,7 +45,8 @@ def turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if "from_heading" in frame.flags:
         return [_from_heading(frame, state, pace)]
     check_all_used(frame, "turn")
-    rate, seconds = pace.rate(frame), frame.q.get("time")
+    goes_on = "more" in frame.flags and state.last == "turn"
+    rate, seconds = pace.rate(frame) or (pace.before_radps if goes_on else None), frame.q.get("time")
     around = "around" in frame.flags and seconds is None
     angle_rad = _said_angle_rad(frame, around)
     left = _side(frame, state, around)
@@ -61,7 +62,7 @@ def turn(frame: Frame, state: State, pace: Pace) -> list[Step]:
     if angle_rad is None and "rate" in frame.q and frame.q["rate"].role:
         angle_rad = frame.q["rate"].number
     if angle_rad is None:
-        angle_rad = pace.profile.defaults.turn_rad * (0.5 if "bit" in frame.flags else 1.0)
+        angle_rad = pace.turn_rad * (0.5 if "bit" in frame.flags else 1.0)
     if seconds is not None:
         rate = angle_rad / seconds.number
     return [Turn(angle_rad, left=left, rate_radps=rate)]
@@ -133,7 +134,7 @@ def face(frame: Frame, state: State, pace: Pace) -> list[Step]:
         return [Face(0.0, frame="start", rate_radps=pace.rate(frame))]
     if frame.direction in SIDES:
         angle = frame.q.get("angle") or frame.q.get("turns")
-        usual = pace.profile.defaults.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
+        usual = pace.turn_rad * (0.5 if {"bit", "more"} & frame.flags else 1)
         return [
             Turn(
                 angle.number if angle else usual, left=frame.direction == "left", rate_radps=pace.rate(frame)

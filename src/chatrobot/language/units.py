@@ -17,7 +17,8 @@ DIMENSIONS = {
 
 
 @lru_cache(maxsize=1)
-def _turn_nouns() -> frozenset[str]:
+def turn_nouns() -> frozenset[str]:
+    """The nouns that count whole turns on the spot."""
     return frozenset(w for lang in LANGUAGES for w in load_table(lang, "turn_nouns").get("words", ()))
 
 
@@ -28,7 +29,7 @@ def unit_at(atoms: Sequence[Atom], i: int) -> tuple[str, float, str] | None:
     atom = atoms[i]
     if atom.kind == "second":
         return "time", 1.0, ""
-    if atom.text in _turn_nouns():
+    if atom.text in turn_nouns():
         return "turns", 2.0 * math.pi, ""
     if atom.text == "in" and (i + 1 == len(atoms) or atoms[i + 1].kind in ("sep", "dir", "conn")):
         return "length", 0.0254, ""

@@ -8,6 +8,7 @@ from dataclasses import replace
 from chatrobot.language.answers import with_manner
 from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
+from chatrobot.language.forms import read_definition
 from chatrobot.language.held import (
     adds,
     answered,
@@ -19,12 +20,13 @@ from chatrobot.language.held import (
     is_taken_back,
     may_be_change,
 )
-from chatrobot.language.interpretation import Interpretation, asked_back, planned
+from chatrobot.language.interpretation import Interpretation, asked_back, planned, taught
 from chatrobot.language.likeliest import offer, proposed
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
+from chatrobot.language.rules import form
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 
@@ -67,8 +69,8 @@ def of_held(text: str, reading: Reading, meant: Read, interpreted: Read) -> Inte
 def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | None:
     """The plan that was asked about, with what a text changes of it; None where it changes nothing.
 
-    It is done after a yes, and where the text that was asked about means the same with this one added; otherwise it
-    is asked about again.
+    It is done after a yes, after a `no` that says otherwise what was refused, and where the text that was asked about
+    means the same with this one added; else it is asked about again.
     """
     language, context = reading.language, reading.context
     offered, agreed = context.dialogue.offered, after_consent(text)
@@ -80,9 +82,30 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
         return asked_back(problem, language) if agreed is not None else None
     if found is None:
         return None
-    joined = meant(text, context).plan if agreed is None else found
     done = planned(list(found.steps), language)
-    return done if joined == found else proposed(done, language)
+    was_clear = bool(context.dialogue.turns) and context.dialogue.turns[-1].outcome == "refused"
+    if agreed is not None or (was_clear and _corrects(text, language)) or meant(text, context).plan == found:
+        return done
+    return proposed(done, language)
+
+
+def of_taught(text: str, reading: Reading, meant: Read) -> Interpretation | None:
+    """The word taught in the turn before with what a text changes of it: `no wait, make it half a metre`; else None."""
+    turns, language = reading.context.dialogue.turns, reading.language
+    said = rephrased(normalise(turns[-1].text), language) if turns and turns[-1].plan is None else ""
+    word = read_definition(said, language) if said else None
+    plan = reading.context.dialogue.words.get(word.name) if word is not None else None
+    if word is None or plan is None or not _corrects(text, language):
+        return None
+    try:
+        found = amended(text, plan, reading, meant) or meant(text, reading.context).plan
+    except Unclear as problem:
+        return asked_back(problem, language)
+    return taught(word.name, found, language) if found is not None else None
+
+
+def _corrects(text: str, language: str) -> bool:
+    return form(language, "held", "instead").search(rephrased(normalise(text), language)) is not None
 
 
 def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: bool = True) -> Plan | None:

@@ -7,10 +7,13 @@ import itertools
 from chatrobot.language.arrange import arranged
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import SIDES, STILL, TURN, Frame
+from chatrobot.language.inverse import flipped
 from chatrobot.language.joining import is_times_only, merged
 from chatrobot.language.manner import Pace
-from chatrobot.language.pauses import insert, insert_at, insert_halfway, paced_legs
+from chatrobot.language.pauses import follows_passes, insert, insert_at, insert_halfway, paced_legs
 from chatrobot.language.repeats import (
+    by_turns,
+    counts_moves,
     fill_up,
     is_heading_back,
     is_moves_only,
@@ -51,12 +54,17 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     legs = paced_legs(frames, pace)
     if legs is not None:
         return legs
+    in_all = bool(frames) and counts_moves(frames[0])
     count, frames = leading_count(frames)
     script = Script(pace, memory, state=memory.state)
     body = loop_end(frames) if count is not None else len(frames)
-    _take_all(script, frames[:body])
+    pause = frames[body - 1] if count is not None and body > 2 and follows_passes(frames[body - 1]) else None
+    _take_all(script, frames[: body - (pause is not None)])
     if count is not None:
-        script.units = repeated(script.units, count)
+        in_all = in_all and len(script.units) > 1
+        script.units = by_turns(script.units, count) if in_all else repeated(script.units, count)
+        if pause is not None:  # `twice: A, B, resting 2 s after each repetition`
+            insert(script, pause, counted=True)
         _take_all(script, frames[body:])
     steps = script.steps()
     if not steps:
@@ -229,6 +237,8 @@ def _repeat(script: Script, frames: list[Frame], i: int) -> int | None:
     counted = bool({"times", "count"} & set(frame.q))
     if "total" in frame.flags and counted and not frame.has_extent and len(period(units)) < len(units):
         script.units = repeated(period(units), count_of(frame))  # so often in all, of what was told twice
+    elif counts_moves(frame) and len(units) > 1 and not frame.moves:
+        script.units = by_turns(units, count_of(frame))  # `left 20 cm, right 20 cm, six moves in all`
     elif is_moves_only(script, frame):
         script.units = repeated(units, count_of(frame))
     elif is_times_only(frame) or ("again" in frame.flags and not frame.moves and counted):
@@ -275,6 +285,12 @@ def _overshot(script: Script, frames: list[Frame], i: int) -> int | None:
 def _interlude(script: Script, frames: list[Frame], i: int) -> int | None:
     """`again`, each one adding once what was said before it; and what comes between the motions, or after each."""
     frame = frames[i]
+    if frame.flags == {"again", "mirrored", "other_way"} and not (frame.moves or frame.q):
+        steps = [step for unit in script.units for step in unit]
+        mirrored = [flipped(step) for step in steps]
+        if sum(a != b for a, b in zip(steps, mirrored, strict=True)) > 1:  # all of it: not the last one alone
+            script.add(mirrored)
+            return i + 1
     if is_plain_again(frame):
         if not script.units:
             raise Unclear("nothing_before", frame.text)
