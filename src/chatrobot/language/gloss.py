@@ -59,6 +59,9 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
     names = {*names, *taught}
     plain = _replaced(spoken, using.before)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
+    folded_names |= {
+        (said,): name for (word, *more), name in folded_names.items() if not more for said in _ordered(word)
+    }
     found = list(_words(UNIT.findall(plain), using, folded_names))
     said = {
         english.replace(VERB, "").strip(): " ".join(written.get(unit, unit) for unit in key)
@@ -72,6 +75,16 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
         marked = " ".join(f"{re.escape(unit)}(?:{MARK})?" for unit in name)
         out = re.sub(rf"\b{marked}(?!\w)", " ".join(name), out)
     return Gloss(out, said)
+
+
+def _ordered(word: str) -> Iterator[str]:
+    """Yield a taught verb as it is in an order: “wackel” and “wackle”, of “wackeln”."""
+    if word.endswith("n") and len(word) > _LEAST_STEM:
+        yield word[:-1]
+        yield word[:-1].removesuffix("e")
+        yield (
+            f"{word[:-3]}{word[-2]}e" if word.endswith(("eln", "ern")) else f"{word[:-1].removesuffix('e')}e"
+        )
 
 
 def _in_order(words: str, using: Tables) -> str:

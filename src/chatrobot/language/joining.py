@@ -46,6 +46,10 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
         return True  # `hop, hop`
     if last.place and (first.direction or first.place or first.verb == "return"):
         return True  # `go to the kitchen and back`: to a place, then another way
+    sized = first.direction or first.rot or {"length", "time"} & set(first.q)
+    aside = first.verb in ("shift", "slide") and not sized
+    if aside and joined == "and" and last.moves and last.direction not in SIDES and first.verb != last.verb:
+        return True  # `drive forward and wiggle`: it lacks a side, and is not passed over
     if last.verb == "return" and joined == "and" and "length" in first.q and not first.verb:
         return True  # `come back, and a metre to the right`: another motion
     trip = "trip" in (*first.flags, *first.roles) and not first.has_extent
@@ -111,7 +115,7 @@ def _says_how(last: Frame, first: Frame) -> bool:
 
 def is_times_only(frame: Frame) -> bool:
     """`four times`, and nothing that moves."""
-    bare = frame.verb in ("", "make", "go", "turn", "shift", "slide")
+    bare = frame.verb in ("", "make", "go", "turn")
     way = frame.direction or frame.rot or frame.shape or frame.place or "trip" in (*frame.flags, *frame.roles)
     counted = "times" in frame.q or ("count" in frame.q and frame.q["count"].role == "move")
     return counted and bare and not way and not frame.has_extent

@@ -75,6 +75,10 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
         turns = [step for entry in context.dialogue.ledger.done for step in entry.way or ()][-1:]
         turns = 1 if len(context.dialogue.ledger.undoes(1).way or ()) == 1 else turns
     few = 1 == len(context.dialogue.ledger.done) < count
+    if "last_leg" in whole.flags:  # a side with the turn behind it
+        done = list(context.dialogue.ledger.undoes(1).way or ())
+        legs = [k for k, step in enumerate(done) if isinstance(step, (Drive, Arc))]
+        turns = done[legs[-1] :] if len(legs) > 1 else 1
     if "one_round" in whole.flags:
         turns = _one_round(context, whole.text)
     if "last_step" in whole.flags or (counts and counts[0].role == "step") or few:
