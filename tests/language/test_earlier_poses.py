@@ -56,3 +56,8 @@ def test_straight_drives_since_then_are_driven_back_without_turning() -> None:
 )
 def test_what_was_not_done_or_done_twice_is_asked_about(turns: tuple[str, ...], text: str) -> None:
     assert done(*turns, text) in ("unclear", "refused")
+
+
+def test_a_place_of_that_name_is_the_place() -> None:
+    turns = ("remember this as the last corner", "go forward 1 m", "turn left", "go forward 1 m")
+    assert done(*turns, "go to the last corner") == 'go to 0 0 named "last corner"'

@@ -80,3 +80,19 @@ def test_a_german_word_is_taught_as_it_is_written() -> None:
     meant = conversation().say("wenn ich hopp sage, fahr 1 m vor")
     assert [*meant.define] == ["hopp"]
     assert "„hopp“" in meant.reply
+
+
+@pytest.mark.parametrize(
+    ("taught", "order", "plan"),
+    [
+        ("a lap is a circle to the left with a radius of 1 m", "drive a lap", "arc left 360 deg radius 1 m"),
+        ("remember this as grandma", "drive to grandma", 'go to 0 0 named "grandma"'),
+    ],
+)
+def test_what_means_nothing_by_itself_is_done_once_it_was_taught(taught: str, order: str, plan: str) -> None:
+    assert done(order) == "unclear"
+    assert done(taught, "forward 1 m", order) == plan
+
+
+def test_a_correction_of_another_kind_of_motion_is_no_start_of_a_total() -> None:
+    assert done("turn left 90", "no, I meant forward 1 m", "no, 2 m") == "unclear"

@@ -19,7 +19,7 @@ from chatrobot.language.frames import DIRECTIONS, GO, TURN
 from chatrobot.language.inverse import inverse, is_sideways
 from chatrobot.language.last_motion import atoms_said, laps, shapes_said
 from chatrobot.language.leading import pose_after
-from chatrobot.language.ledger import TurnRecord
+from chatrobot.language.ledger import TurnRecord, Way
 from chatrobot.language.rules import Form, forms_of
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -34,12 +34,12 @@ _NAMED = ("before", "after", "at", "ago", "corner", "before_step", "after_step")
 
 @dataclass(frozen=True)
 class _Done:
-    """A part of an earlier turn: the poses around it, and what was driven since it began."""
+    """A part of an earlier turn: the poses around it, and what was driven since it began, where that is known."""
 
     before: Pose
     after: Pose
     record: int
-    since: tuple[Step, ...]
+    since: Way
 
 
 def names_earlier_pose(plain: str, language: str) -> bool:
@@ -66,6 +66,8 @@ def to_earlier_pose(plain: str, language: str, dialogue: Dialogue) -> list[Step]
     elif "step" in kind:
         done = _chosen([*_steps_of_last(dialogue)], count, plain)
     elif kind == "corner":
+        if any(name in plain for name in dialogue.places):
+            return None  # a place of that name
         done = _chosen([*_corners(said.get("what", ""), dialogue)], at or -1, plain)
     else:
         done = _chosen([*_units(_in_present(said["what"], language), dialogue)], at, plain)
@@ -84,9 +86,9 @@ def _way_to(done: _Done, kind: str, dialogue: Dialogue) -> list[Step]:
     if "after" in kind or kind == "corner":
         pose = done.after if "after" in kind else done.before
         return [Go(round(pose.x_m, 3) + 0.0, round(pose.y_m, 3) + 0.0, frame="odom")]  # no -0
-    moved = [step for step in done.since if not isinstance(step, Wait)]
+    moved = [step for step in done.since or () if not isinstance(step, Wait)]
     straight = all(isinstance(step, Drive) and step.distance_m for step in moved)
-    if straight and not any(turn.walk for turn in dialogue.turns[done.record :]):
+    if straight and done.since is not None and not any(turn.walk for turn in dialogue.turns[done.record :]):
         return inverse(moved)
     x_m, y_m = round(done.before.x_m, 3) + 0.0, round(done.before.y_m, 3) + 0.0
     return [Go(x_m, y_m, rounded_angle(wrap_angle(done.before.yaw_rad), 2), frame="odom")]
@@ -192,8 +194,8 @@ def _steps(turn: TurnRecord, unit: _Done, atoms: Sequence[Atom] | None) -> Itera
         ends = [pose_after(way[:n], ORIGIN) for n in (i, i + 1)]
         if (atoms is None or _is_named(step, atoms)) and None not in ends:
             before, after = (turn.start_pose.compose(pose) for pose in ends if pose is not None)
-            later = unit.since[len(way) :]
-            yield _Done(before, after, unit.record, (*way[i:], *later))
+            since = (*way[i:], *unit.since[len(way) :]) if unit.since is not None else None
+            yield _Done(before, after, unit.record, since)
 
 
 def _is_named(step: Step, atoms: Sequence[Atom]) -> bool:
@@ -218,7 +220,11 @@ def _is_curved(way: Sequence[Step]) -> bool:
     return bool(way) and all(isinstance(step, Arc) for step in way)
 
 
-def _driven(turns: Sequence[TurnRecord]) -> tuple[Step, ...]:
-    """Return what was driven in these turns; a `Go`, which nobody drives back, where that is not known."""
-    ways = [turn.way for turn in turns if turn.moved]
-    return tuple(step for way in ways for step in (way if way is not None else (Go(0.0, 0.0),)))
+def _driven(turns: Sequence[TurnRecord]) -> Way:
+    """Return what was driven in these turns; None where that is not known of one."""
+    steps: list[Step] = []
+    for turn in turns:
+        if turn.moved and turn.way is None:
+            return None
+        steps += turn.way or ()
+    return tuple(steps)

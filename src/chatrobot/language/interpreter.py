@@ -301,7 +301,7 @@ class OfflineInterpreter:
         return meant if odds >= ORDER else proposed(meant, language) or meant
 
     def _interpreted(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        check_consistent(normalise(text), language)
+        check_consistent(normalise(text), language, names_in(context))
         plain = with_known_counts(without_compass(rephrased(normalise(text), language), language))
         rest, facing_rad = split_convention(plain, language)
         plain = rest or plain

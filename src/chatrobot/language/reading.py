@@ -159,11 +159,12 @@ def _goes_on_after_again(frames: Sequence[Frame]) -> bool:
 
 
 def _done_as_taught(atoms: Sequence[Atom]) -> list[Atom]:
-    """`Run the salsa`, `go zoom`: the verb right before a word that was taught drives nothing of its own."""
+    """`Run the salsa`, `drive a lap`: the verb right before a word that was taught drives nothing of its own."""
     out: list[Atom] = []
     for atom in atoms:
         if atom.kind == "defined":
-            at = next((i for i in range(len(out) - 1, -1, -1) if out[i].kind != "glue"), -1)
+            beside = (a.kind == "glue" or (a.kind, a.value) == ("num", "article") for a in reversed(out))
+            at = len(out) - 1 - next((k for k, is_beside in enumerate(beside) if not is_beside), len(out))
             if at >= 0 and (out[at].kind, out[at].value) == ("verb", "go"):
                 out[at] = Atom("verb", "make", out[at].text)
         out.append(atom)

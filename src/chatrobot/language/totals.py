@@ -64,11 +64,13 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
 
 
 def _ordered_first(turns: Sequence[TurnRecord], last: TurnRecord) -> TurnRecord:
-    """The turn that the last one put right, if it did: `1 m`, `no, 2 m`, `no, 1.5` is of the first."""
-    moved = [turn for turn in turns if turn.plan is not None]
-    while is_correction(last) and moved.index(last) > 0:
-        last = moved[moved.index(last) - 1]
-    return last
+    """The turn that the last one put right, if it did, by a motion of its kind: `1 m`, `no, 2 m`, `no, 1.5`."""
+    first = last
+    for turn in reversed([turn for turn in turns if turn.plan is not None and turn is not last]):
+        if not is_correction(first) or type(steps_of(turn)[-1]) is not type(steps_of(first)[-1]):
+            break
+        first = turn
+    return first
 
 
 def _rounds_missing(whole: Frame, steps: Sequence[Step], context: Context) -> list[Step]:

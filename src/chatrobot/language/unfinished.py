@@ -6,9 +6,10 @@ What was to come is not guessed.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import cache
 
+from chatrobot.language.compiled import Key
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.rules import Rule, form, rules
 from chatrobot.language.tokens import Atom
@@ -22,6 +23,7 @@ _ASKED = {
     "sizeless": "which_size",
     "conditional": "condition",
     "unread": "unclear_motion",
+    "untaught": "unclear_motion",
 }
 """The code that is asked back with where a text matches a list of the table."""
 
@@ -34,15 +36,19 @@ def breaks_off(text: str, language: str) -> str:
     return found.group().strip(" .…,!-")
 
 
-def check_consistent(text: str, language: str) -> None:
+def check_consistent(text: str, language: str, names: Collection[Key] = ()) -> None:
     """Ask back where a normalised text says two things at once, asks for a lap and not round what, or has
     a part that no rule reads and that changes what is meant, or tells only what may be possible.
+
+    Args:
+        names: the places and words that a person taught: what means nothing by itself (`untaught`) means one of them.
 
     Raises:
         Unclear: for such a text.
     """
+    known = [" ".join(name) for name in names]
     for name in _ASKED:
-        _check(text, language, name)
+        _check(text, language, name, known if name == "untaught" else ())
 
 
 def check_unconditional(text: str, language: str) -> None:
@@ -55,8 +61,9 @@ def check_unconditional(text: str, language: str) -> None:
     _check(text, language, "conditional")
 
 
-def _check(text: str, language: str, name: str) -> None:
-    if any(rule.is_in(text) for rule in _rules(language, name)):
+def _check(text: str, language: str, name: str, known: Collection[str] = ()) -> None:
+    found = filter(None, (rule.search(text) for rule in _rules(language, name)))
+    if any(not any(word in part.group() for word in known) for part in found):
         raise Unclear(_ASKED[name], text[:_SHOWN])
 
 
