@@ -12,6 +12,12 @@ from tests.language.dialogue_runner import Conversation
 
 # Each with the order that is left where nothing is said beside it.
 ASIDES = [
+    ("customer in aisle 4 wants a demo, go forward 2 metres", "go forward 2 metres"),
+    ("mum's asleep so keep it down, back 20 cm", "back 20 cm"),
+    ("half the class is off sick, still, turn 90 degrees left", "turn left 90 degrees"),
+    ("sorry I dropped my sandwich, ok, reverse 20 cm", "back 20 cm"),
+    ("1.5 m fwd at 0.15 m/s dont wanna wake anyone", "1.5 m forward at 0.15 m/s"),
+    ("单子催得急，每秒零点六米，往前冲三米", "每秒零点六米，往前三米"),
     ("The plumber is under the sink and needs his space. Turn left by 90 degrees.", "turn left 90 degrees"),
     ("careful, hot soup coming through!! go back half a metre", "drive back 0.5 m"),
     ("Somebody's knocking. Half a turn to the left so you're facing the door.", "turn left 180 degrees"),

@@ -14,7 +14,6 @@ OFFERED = {
     "oh what fun now half of that": "drive 0.5 m",
     "do it again for grandpa he missed it": "drive 1 m",
     "dude my mic was muted go fwd 80cm": "drive 0.8 m",
-    "1.5 m fwd at 0.15 m/s dont wanna wake anyone": "drive 1.5 m at 0.15 m/s",
     "now half of that backwards the tractor needs by": "drive 0.5 m back",
     "still no lemons: pull back two metres for the wide shot": "drive 2 m back",
     "还挡着门呢再退二十公分": "drive 0.2 m back",

@@ -7,7 +7,9 @@ all others alike, and at the words and how they end. The weights are fitted by s
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -25,7 +27,7 @@ SCALE = 24.0
 SURE_ASIDE, MAYBE_ASIDE = 0.5, 0.0
 """A clause with higher odds than the first is surely an aside; with higher odds than the second, the order without it
 is proposed. Writers that were left out chose them: `fit_beside --check`."""
-SURE_BOUND, CLEARLY_ASIDE = 2.5, 5.0
+SURE_BOUND, SURE_BEARING, CLEARLY_ASIDE = 2.5, 3.0, 5.0
 """The first, for a clause with an amount, a condition or a negation; that no part of a sentence orders anything."""
 SURELY_NOT_MEANT = 1.5
 """A clause with lower odds that asks for what the robot cannot do may be meant: `grab the mug, go forward 1 m`."""
@@ -33,6 +35,8 @@ NO_ASIDE = -2.0
 """A clause with lower odds is no aside, whatever else it sounds like: what is ordered beside it is proposed."""
 BEARS = -9.0
 """Its odds, where its words say that it is none."""
+LEAST_TOLD = 4
+"""What has so many words tells something: `nice, that you …` and `two of them` may be part of the order."""
 WITHOUT_AMOUNT = 1.0
 """So much less are the odds beside an order that tells no amount: it may be as little of one as they are."""
 SOUNDS_ORDERED = 1.5
@@ -141,14 +145,23 @@ def _says_way(clause: Clause) -> bool:
 def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
     """Whether it is surely an aside, and has no amount that could be meant for the order."""
     aside = found.get(clause.start)
-    if aside is None or _may_bear_on_order(clause.signs, aside.apart) or says_motion_alone(clause):
-        return False
+    if aside is None or says_motion_alone(clause) or begins_condition(clause):
+        return False  # `not before noon`; `if it is dry`
     labels = {sign.label for sign in clause.signs}
-    # `not before noon`; `if it is dry`; `sorry, 5 s`; what is not said to its end: 左转，那个，就是
-    if clause.denies or begins_condition(clause) or "correction" in labels or labels <= {"opening"}:
-        return False
-    is_bound = clause.tells or _is_bound(clause) or len(clause.signs) == 1
-    return aside.odds >= (SURE_BOUND if is_bound else SURE_ASIDE)
+    if labels <= {"opening"} or (clause.denies and _denies_motion(clause)):
+        return False  # what is not said to its end: 左转，那个，就是
+    return aside.odds >= _least_odds(clause, labels, aside.apart)
+
+
+def _least_odds(clause: Clause, labels: AbstractSet[str], apart: bool) -> float:
+    """The odds from which a clause is surely an aside, by what in it could bear on the order."""
+    if _may_bear_on_order(clause.signs, apart=True):
+        return math.inf if _is_measured(clause.signs) else CLEARLY_ASIDE
+    if _may_bear_on_order(clause.signs, apart) and len(clause.signs) < LEAST_TOLD:
+        return math.inf  # `two of them`
+    if _may_bear_on_order(clause.signs, apart) or clause.denies or "correction" in labels:
+        return SURE_BEARING  # `customer in aisle 4 wants a demo`, `not your fault`, `sorry, I dropped my sandwich`
+    return SURE_BOUND if clause.tells or _is_bound(clause) or len(clause.signs) == 1 else SURE_ASIDE
 
 
 def begins_condition(clause: Clause) -> bool:
@@ -171,9 +184,12 @@ def _may_bear_on_order(signs: Sequence[Sign], apart: bool) -> bool:
     }
     if not apart:
         return not moving <= _NO_AMOUNTS
-    measured = any(a.label in _NUMBERS and b.label in _UNITS for a, b in itertools.pairwise(signs))
     counted = bool(moving & _NUMBERS and moving & _WAYS)
-    return measured or counted or not moving <= _NO_AMOUNTS | _NUMBERS | {"UNIT", "TIMES", "ROLE"}
+    return _is_measured(signs) or counted or not moving <= _NO_AMOUNTS | _NUMBERS | {"UNIT", "TIMES", "ROLE"}
+
+
+def _is_measured(signs: Sequence[Sign]) -> bool:
+    return any(a.label in _NUMBERS and b.label in _UNITS for a, b in itertools.pairwise(signs))
 
 
 def _may_measure(signs: Sequence[Sign], i: int) -> bool:
@@ -225,14 +241,14 @@ def are_asides(reads: Sequence[Read], left_out: Sequence[Read]) -> bool:
 
 
 def odds_beside_asides(plain: str, reads: Sequence[Read], names: Names = ()) -> float:
-    """The odds that a text orders something, where sentences that are clearly asides are no part of it."""
+    """The odds that a text orders something, where what is clearly an aside is no part of it."""
     found = asides(reads)
     told = [
         read
         for read in reads
         if (aside := found.get(read.clause.start)) is not None
-        and aside.apart
-        and aside.odds >= CLEARLY_ASIDE
+        and (aside.apart or (not read.clause.moves and len(read.clause.signs) >= LEAST_TOLD))
+        and aside.odds >= (CLEARLY_ASIDE if aside.apart else SURE_BEARING)
         and is_sure_aside(read.clause, found)
     ]
     odds = order_log_odds(reads)

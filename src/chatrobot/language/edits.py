@@ -223,20 +223,23 @@ def _heads_left(step: Step) -> bool:
 
 
 def _lengthened(steps: list[Step], edit: Edit) -> list[Step] | None:
-    """`The same but 20 cm further`, `the same minus 10 degrees`: the amount as it was, and so much more or less.
+    """`The same but 20 cm further`, `the same with the radius plus 20 cm`: as it was, and so much more or less.
 
     Raises:
         Unclear: where no amount or several could be meant, or nothing would be left.
     """
     [size] = edit.amounts
+    round_ = bool({"radius", "diameter"} & edit.roles) and size.value == "length"
     names = {"length": "distance_m", "angle": "angle_rad", "turns": "angle_rad", "time": "duration_s"}
-    name = names.get(size.value, "")
-    taken = [
-        step for step in steps if isinstance(step, TAKERS.get(size.value, ())) and getattr(step, name, None)
-    ]
-    if len(taken) != 1 or any(kind is not type(taken[0]) for kind in edit.kinds):
+    name = "radius_m" if round_ else names.get(size.value, "")
+    takers = TAKERS["radius"] if round_ else TAKERS.get(size.value, ())
+    taken = [step for step in steps if isinstance(step, takers) and getattr(step, name, None)]
+    values = {round(getattr(step, name), 6) for step in taken}
+    of_all = len(values) == 1 and (len(taken) == 1 or bool(edit.roles) or "each" in edit.flags)
+    if not of_all or any(kind is not type(taken[0]) for kind in edit.kinds):
         raise Unclear("unclear_motion", size.text)
-    value = getattr(taken[0], name) + edit.sign * size.number
+    before = getattr(taken[0], name) * (2.0 if "diameter" in edit.roles else 1.0)
+    value = before + edit.sign * size.number
     if value <= 0.0:
         raise Unclear("unclear_motion", size.text)
     whole = quantity(size.value, value, size.text, size.role)

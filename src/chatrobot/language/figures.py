@@ -34,8 +34,8 @@ def _size(atoms: Sequence[Atom]) -> Edit | None:
     roles = {atom.value for atom in atoms if atom.kind in ("role", "counter") and atom.value in _SIZED}
     beside = ("q", "filler", "glue", "sep")
     others = [a for a in atoms if a.kind not in beside and a.value not in ("again", *_SIZED)]
-    if others or len(sized) != 1 or sized[0].value != "length" or len(roles) > 1:
-        return None
+    if others or len(sized) != 1 or sized[0].value != "length" or sized[0].number <= 0.0 or len(roles) > 1:
+        return None  # less than none: `minus 10 cm`
     return Edit(amounts=sized, roles=roles or {"side"})
 
 

@@ -79,8 +79,9 @@ class Clause:
 
     @property
     def binds(self) -> bool:
-        """Whether it bears on what stands beside it: a condition, a negation, a correction."""
-        return self.end == "?" or any(sign.label in BINDING or sign.label in _QUOTES for sign in self.signs)
+        """Whether it bears on what stands beside it: a condition, a negation, a correction, the next motion."""
+        said = any(sign.label in BINDING or sign.label in _QUOTES for sign in self.signs)
+        return said or self.end == "?" or self._orders_next
 
     @property
     def order_start(self) -> int:
@@ -145,9 +146,16 @@ class Clause:
     @property
     def goes_on(self) -> bool:
         """`then to the kitchen`: whether it has no verb of its own, so that the one before holds for it."""
-        first, *rest = self.signs
-        begins = lexicon().words.get(tuple(first.text.split("_")), (("", ""),))[0][0] == "conn"
-        return begins and not any(sign.label == "VERB" and not sign.is_name for sign in rest)
+        return self._begins_next and not any(sign.label == "VERB" and not sign.is_name for sign in self.signs[1:])
+
+    @property
+    def _orders_next(self) -> bool:
+        """`then spin round …`: whether it begins as the next motion does, whatever is told behind it."""
+        return self._begins_next and any(sign.label == "VERB" and sign.moves for sign in self.signs[1:2])
+
+    @property
+    def _begins_next(self) -> bool:
+        return lexicon().words.get(tuple(self.signs[0].text.split("_")), (("", ""),))[0] == ("conn", "then")
 
     @property
     def moves(self) -> bool:
