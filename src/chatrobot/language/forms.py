@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.rules import Form, forms_of
+from chatrobot.reflex import is_stop
 
 UNNAMED = "★"
 """The name of a place that was remembered without one: it is what `that place` means."""
@@ -69,7 +70,7 @@ def read_definition(text: str, language: str) -> Definition | None:
         found = pattern.fullmatch(text)
         if found:
             name = found["name"].strip(" ,.:'\"")
-            if name and not _pattern(language, "name_stop").search(name):
+            if name and not (is_stop(name) or _pattern(language, "name_stop").search(name)):
                 return Definition(name, found["body"].strip(" \"'”」"))
     return None
 

@@ -146,7 +146,9 @@ class Clause:
     @property
     def goes_on(self) -> bool:
         """`then to the kitchen`: whether it has no verb of its own, so that the one before holds for it."""
-        return self._begins_next and not any(sign.label == "VERB" and not sign.is_name for sign in self.signs[1:])
+        return self._begins_next and not any(
+            sign.label == "VERB" and not sign.is_name for sign in self.signs[1:]
+        )
 
     @property
     def _orders_next(self) -> bool:

@@ -24,7 +24,7 @@ from chatrobot.plan.steps import Drive, Plan, RawTwist, Step, Turn
 _BARE = frozenset({"NUMBER", "UNIT", "DIR", "SCALE", "FRACTION", "COUNTER"})
 _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
-_CALLING = frozenset({"person", "please"})
+_CALLING = frozenset({"person", "please", "opening"})
 _POLITE = frozenset({"please", "opening", "social"})
 _SUBJECTS = frozenset({"mine", "kin", "other", "thing"})
 _MEANT = frozenset({"VERB", "DIR", "ROT", "SHAPE", "UNIT", "PLACE"})
