@@ -144,3 +144,11 @@ def test_what_is_denied_behind_its_verb_moves_nothing(text: str) -> None:
     understanding = Understanding(load_profile("wheeltec_mini_mec"), load_world("home"), None)
     meant = understanding.interpret(text)
     assert (meant.plan, meant.proposal) == (None, None), meant.reply
+
+
+def test_german_is_read_after_a_place_was_remembered_without_a_name() -> None:
+    talk = Conversation()
+    talk.say("remember this place")
+    meant = talk.say("fahr einen Meter vor")
+    assert meant.plan is not None, meant.reply
+    assert format_plan(meant.plan).strip() == "drive 1 m"

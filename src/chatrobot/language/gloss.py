@@ -56,11 +56,11 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
     taught = {
         tuple(said.split()) for found in using.taught.finditer(spoken) for said in found.groups() if said
     }
-    names = {*names, *taught}
+    names = {name for name in (*names, *taught) if name}  # none of a name that is all marks
     plain = _replaced(spoken, using.before)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
     folded_names |= {
-        (said,): name for (word, *more), name in folded_names.items() if not more for said in _ordered(word)
+        (said,): name for key, name in folded_names.items() if len(key) == 1 for said in _ordered(key[0])
     }
     found = list(_words(UNIT.findall(plain), using, folded_names))
     said = {
