@@ -251,6 +251,7 @@ def merged(first: Frame, second: Frame) -> Frame | None:
         return None
     both.shape = both.shape or second.shape
     both.place = both.place or second.place
+    both.words = both.words or second.words
     both.pace = both.pace or second.pace
     both.texts += second.texts
     return both
