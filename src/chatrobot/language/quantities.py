@@ -33,6 +33,9 @@ _DETERMINERS = frozenset({
 _ABOUT = (90.0, 180.0, 270.0, 360.0, 540.0, 720.0)
 """What `a 180` can only mean in degrees."""
 
+_FAR_M, _FAR_TIMES = 10.0, 10.0
+"""So many metres, and so many times the length behind it, is no length that shares its unit."""
+
 _COUNTED = ("turns", "count", "length", "angle", "time", "times")
 
 
@@ -228,7 +231,7 @@ def _shared_units(atoms: list[Atom]) -> list[Atom]:
             and out[j].kind == "q"
             and out[j].value in ("length", "angle")
             and out[j].role
-            and not (out[j].value == "length" and _is_an_angle(out, i))
+            and not (out[j].value == "length" and (_is_an_angle(out, i) or _is_far(out[i], out[j])))
         ):
             factor = float(out[j].role)
             out[i] = quantity(out[j].value, out[i].number * factor, out[i].text, out[j].role)
@@ -236,6 +239,13 @@ def _shared_units(atoms: list[Atom]) -> list[Atom]:
 
 
 def _is_an_angle(atoms: Sequence[Atom], i: int) -> bool:
-    """`left 90, 50 cm`: a number like that at a side is degrees, whatever follows."""
-    sided = is_kind(atoms, i - 1, "dir", "left") or is_kind(atoms, i - 1, "dir", "right")
+    """`left 90, 50 cm`, `front right at 45, 1 m`: a number like that at a side is degrees, whatever follows."""
+    at = i - 2 if is_kind(atoms, i - 1, "glue") else i - 1
+    sided = at >= 0 and atoms[at].kind == "dir" and atoms[at].value.endswith(("left", "right"))
     return sided and 15 <= atoms[i].number <= 720 and atoms[i].number % 15 == 0
+
+
+def _is_far(number: Atom, length: Atom) -> bool:
+    """`forward at 45, 1 m`: hardly 45 m."""
+    unit_m = float(length.role)
+    return number.number * unit_m > _FAR_M and number.number * unit_m > _FAR_TIMES * length.number
