@@ -9,7 +9,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -28,7 +27,8 @@ SURE_ASIDE, MAYBE_ASIDE = 0.5, 0.0
 """A clause with higher odds than the first is surely an aside; with higher odds than the second, the order without it
 is proposed. Writers that were left out chose them: `fit_beside --check`."""
 SURE_BOUND, SURE_BEARING, CLEARLY_ASIDE = 2.5, 3.0, 5.0
-"""The first, for a clause with an amount, a condition or a negation; that no part of a sentence orders anything."""
+"""The first, for a clause with an amount in a sentence of its own, or a condition; one with a count, a denial or a
+correction beside the order; that no part of a sentence orders anything."""
 SURELY_NOT_MEANT = 1.5
 """A clause with lower odds that asks for what the robot cannot do may be meant: `grab the mug, go forward 1 m`."""
 NO_ASIDE = -2.0
@@ -117,8 +117,7 @@ def _may_be_pooled(clause: Clause, odds: float) -> bool:
 
 
 def _is_bound(clause: Clause) -> bool:
-    then = lexicon().words.get(tuple(clause.signs[0].text.split("_")), ())  # what begins so is another order
-    bound = any(sign.label in _BOUND for sign in clause.signs) or ("conn", "then") in then
+    bound = any(sign.label in _BOUND for sign in clause.signs) or clause.begins_next
     return bound or clause.denies or clause.end == ":" or _denies_motion(clause)
 
 
@@ -146,20 +145,23 @@ def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
     """Whether it is surely an aside, and has no amount that could be meant for the order."""
     aside = found.get(clause.start)
     if aside is None or says_motion_alone(clause) or begins_condition(clause):
-        return False  # `not before noon`; `if it is dry`
-    labels = {sign.label for sign in clause.signs}
-    if labels <= {"opening"} or (clause.denies and _denies_motion(clause)):
-        return False  # what is not said to its end: 左转，那个，就是
-    return aside.odds >= _least_odds(clause, labels, aside.apart)
+        return False  # `if it is dry`
+    if clause.denies and _denies_motion(clause):
+        return False  # `not left, the other one`
+    return aside.odds >= _least_odds(clause, aside.apart)
 
 
-def _least_odds(clause: Clause, labels: AbstractSet[str], apart: bool) -> float:
+def _least_odds(clause: Clause, apart: bool) -> float:
     """The odds from which a clause is surely an aside, by what in it could bear on the order."""
+    labels = {sign.label for sign in clause.signs}
+    if labels <= {"opening"}:
+        return math.inf  # what is not said to its end: 左转，那个，就是
     if _may_bear_on_order(clause.signs, apart=True):
         return math.inf if _is_measured(clause.signs) else CLEARLY_ASIDE
-    if _may_bear_on_order(clause.signs, apart) and len(clause.signs) < LEAST_TOLD:
+    counts = not apart and _may_bear_on_order(clause.signs, apart)
+    if counts and len(clause.signs) < LEAST_TOLD:
         return math.inf  # `two of them`
-    if _may_bear_on_order(clause.signs, apart) or clause.denies or "correction" in labels:
+    if counts or clause.denies or "correction" in labels:
         return SURE_BEARING  # `customer in aisle 4 wants a demo`, `not your fault`, `sorry, I dropped my sandwich`
     return SURE_BOUND if clause.tells or _is_bound(clause) or len(clause.signs) == 1 else SURE_ASIDE
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from chatrobot.language.frames import EXTENTS, Frame
 from chatrobot.language.lexicon import cut, lexicon
-from chatrobot.language.numbers import is_chinese
+from chatrobot.language.numbers import FAR_M, is_chinese
 from chatrobot.language.tokens import SILENT, Atom, joined, quantity
 from chatrobot.language.unclear import Unclear
 
@@ -26,8 +26,6 @@ _ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不�
 _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
 _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
-_FAR_M = 10.0
-"""A bare number of metres above it is asked about."""
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
 MEANT = "meant"
@@ -208,7 +206,7 @@ def _in_the_unit_of(before: Atom, number: Atom) -> Atom:
     factor = _UNIT_FACTOR.fullmatch(before.role)
     if number.kind != "q" or number.value != "number" or before.value == "number" or factor is None:
         return number
-    if before.value == "length" and number.number * float(factor[0]) > max(_FAR_M, before.number):
+    if before.value == "length" and number.number * float(factor[0]) > max(FAR_M, before.number):
         raise Unclear("no_unit", number.text)
     return quantity(before.value, number.number * float(factor[0]), number.text, before.role)
 

@@ -17,7 +17,7 @@ from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.frames import DIRECTIONS, GO, TURN
 from chatrobot.language.inverse import inverse, is_sideways
-from chatrobot.language.last_motion import atoms_said, laps, shapes_said
+from chatrobot.language.last_motion import CURVES, atoms_said, laps, shapes_said
 from chatrobot.language.leading import pose_after
 from chatrobot.language.ledger import TurnRecord, Way
 from chatrobot.language.rules import Form, forms_of
@@ -27,8 +27,6 @@ from chatrobot.language.units import turn_nouns
 from chatrobot.plan.base import rounded_angle
 from chatrobot.plan.steps import Arc, Drive, Go, Step, Turn, Wait
 
-CURVES = frozenset({"curve", "circle", "half_circle", "quarter_circle"})
-"""What people call a curve by another name: `before the circle`, after a half circle."""
 _NAMED = ("before", "after", "at", "ago", "corner", "before_step", "after_step")
 
 

@@ -8,10 +8,10 @@ from functools import lru_cache
 from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts, without
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount
 from chatrobot.language.command import read_command
-from chatrobot.language.earlier_poses import CURVES
 from chatrobot.language.facts import defined_unit
 from chatrobot.language.frames import EXTENTS
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.last_motion import CURVES
 from chatrobot.language.names import names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.reading import Reading

@@ -16,8 +16,9 @@ from chatrobot.language.data_files import relation_words
 from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned
-from chatrobot.language.likeliest import FAR_M, STUMBLED, proposed
+from chatrobot.language.likeliest import STUMBLED, proposed
 from chatrobot.language.names import names_in
+from chatrobot.language.numbers import FAR_M
 from chatrobot.language.order import in_order
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased

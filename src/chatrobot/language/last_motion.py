@@ -22,6 +22,8 @@ from chatrobot.language.tokens import Atom, quantity, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
+CURVES = frozenset({"curve", "circle", "half_circle", "quarter_circle"})
+"""What people call a curve by another name: `before the circle`, after a half circle."""
 _LEAST_SIDES = 3
 """Fewer drives than that draw no shape."""
 _NEAR = 0.01

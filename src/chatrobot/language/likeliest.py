@@ -32,6 +32,7 @@ from chatrobot.language.frames import GO, TURN
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.left_out import Span, place_of, told_spans
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.numbers import FAR_M
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, Sign, clauses_of
@@ -53,8 +54,6 @@ SURE_TALK, SURE_CONDITION = -1.5, 1.0
 """In a text that orders nothing as a whole, what is left out has lower odds of an order."""
 STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
 """Why a text was not read, where it may have talk in it that no mark sets off."""
-FAR_M = 10.0
-"""A bare number above that is no number of metres."""
 _ALONE = frozenset({"NUMBER", "FLAG"})
 """Beside nothing else that moves a number stands alone: `and 45 more`."""
 _DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE"})

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 
 from chatrobot.language.tokens import Atom
 
+FAR_M = 10.0
+"""A bare number above that is no number of metres."""
+
 Atoms = Sequence[Atom]
 
 

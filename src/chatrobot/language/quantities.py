@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from chatrobot.language.arithmetic import calculated, summed
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.numbers import Number, is_chinese, is_kind, read_addition, read_number
+from chatrobot.language.numbers import FAR_M, Number, is_chinese, is_kind, read_addition, read_number
 from chatrobot.language.speeds import with_speeds
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.units import unit_at
@@ -33,8 +33,8 @@ _DETERMINERS = frozenset({
 _ABOUT = (90.0, 180.0, 270.0, 360.0, 540.0, 720.0)
 """What `a 180` can only mean in degrees."""
 
-_FAR_M, _FAR_TIMES = 10.0, 10.0
-"""So many metres, and so many times the length behind it, is no length that shares its unit."""
+_FAR_TIMES = 10.0
+"""A number of more metres than that, and so many times the length behind it, does not share its unit."""
 
 _COUNTED = ("turns", "count", "length", "angle", "time", "times")
 
@@ -247,5 +247,4 @@ def _is_an_angle(atoms: Sequence[Atom], i: int) -> bool:
 
 def _is_far(number: Atom, length: Atom) -> bool:
     """`forward at 45, 1 m`: hardly 45 m."""
-    unit_m = float(length.role)
-    return number.number * unit_m > _FAR_M and number.number * unit_m > _FAR_TIMES * length.number
+    return number.number * float(length.role) > max(FAR_M, _FAR_TIMES * length.number)

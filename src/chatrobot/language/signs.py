@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from chatrobot.language.compiled import Kept, Key, PhraseTable, by_first, compiled
 from chatrobot.language.data_files import LANGUAGES, expand, load_table, relation_words
-from chatrobot.language.lexicon import UNIT, lexicon
+from chatrobot.language.lexicon import UNIT, Meaning, lexicon
 from chatrobot.language.until import until_spans
 
 _STRONG, _WEAK = frozenset(".!?;。…\n"), frozenset(",:、—~")
@@ -146,18 +146,22 @@ class Clause:
     @property
     def goes_on(self) -> bool:
         """`then to the kitchen`: whether it has no verb of its own, so that the one before holds for it."""
-        return self._begins_next and not any(
-            sign.label == "VERB" and not sign.is_name for sign in self.signs[1:]
-        )
+        is_joined = self._opens_as[0][0] == "conn"
+        return is_joined and not any(sign.label == "VERB" and not sign.is_name for sign in self.signs[1:])
+
+    @property
+    def begins_next(self) -> bool:
+        """`then …`: whether it begins as another motion does."""
+        return ("conn", "then") in self._opens_as
 
     @property
     def _orders_next(self) -> bool:
-        """`then spin round …`: whether it begins as the next motion does, whatever is told behind it."""
-        return self._begins_next and any(sign.label == "VERB" and sign.moves for sign in self.signs[1:2])
+        """`then spin round …`: whether it begins with another motion, whatever is told behind it."""
+        return self.begins_next and any(sign.label == "VERB" and sign.moves for sign in self.signs[1:2])
 
     @property
-    def _begins_next(self) -> bool:
-        return lexicon().words.get(tuple(self.signs[0].text.split("_")), (("", ""),))[0] == ("conn", "then")
+    def _opens_as(self) -> Meaning:
+        return lexicon().words.get(tuple(self.signs[0].text.split("_")), (("", ""),))
 
     @property
     def moves(self) -> bool:
