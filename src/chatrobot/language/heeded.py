@@ -171,8 +171,12 @@ def _must_matter(atoms: Sequence[Atom], i: int) -> bool:
     if atoms[i].kind == "dir":  # 倒着走一个正方形
         turns = not any(atom.value in ("no_turn", "sideways") for atom in others)
         return flag == "back" and turns and any(atom.kind == "shape" for atom in others)
+    if atoms[i].kind == "pace":
+        return any(atom.kind == "defined" for atom in others)
     if atoms[i].kind != "flag":
         return False
+    if flag == "sideways" and any(atom.value == "again" for atom in others):
+        return not any(atom.value in _OTHER_SIDE for atom in others)
     if flag == "again":
         return _repeats_what_is_told(atoms, i)
     if flag == "diagonal":  # `diagonally to the front left`

@@ -26,8 +26,8 @@ from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.resizing import resized
 from chatrobot.language.rules import form, forms
-from chatrobot.language.selections import step_kinds
 from chatrobot.language.starting import without_hold
+from chatrobot.language.step_kinds import places_of
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import once_of
@@ -97,8 +97,8 @@ def changed_in_part(plain: str, plan: Plan, reading: Reading, read_anew: ReadAne
         return _with_part(named, steps, reading, read_anew)
     each = _said("each", plain, reading)
     if each is not None:
-        kinds = step_kinds(each["sole"], reading.language)
-        every = [_of_one(each["new"], [s], reading) if isinstance(s, kinds) else [s] for s in steps]
+        at = places_of(steps, each["sole"], reading.language)
+        every = [_of_one(each["new"], [s], reading) if i in at else [s] for i, s in enumerate(steps)]
         if any(part is None for part in every):
             raise Unclear("unclear_motion", each["new"])
         return [step for part in every for step in part or ()]
@@ -216,8 +216,7 @@ def _chosen(said: dict[str, str], steps: list[Step], plain: str, language: str) 
         Unclear: there are no such parts, or more than are named.
     """
     table = load_table(language, "selections")
-    kinds = step_kinds(said["kind"] or said["named"] or said["sole"], language)
-    at = [i for i, step in enumerate(steps) if isinstance(step, kinds)]
+    at = places_of(steps, said["kind"] or said["named"] or said["sole"], language)
     word = said["nth"] or said["n"]
     numbers = {**table["numbers"], **table["ordinals"]}
     nth = int(word) if word.isdecimal() else numbers.get(word, 0)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from chatrobot.language.actions import act
 from chatrobot.language.around import AROUND
+from chatrobot.language.changes import changed
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import PLACE_HEADING, Frame
 from chatrobot.language.manner import Pace
@@ -46,6 +47,7 @@ class Script:
         self.units.append(unit)
 
 
+_HOW = {"speed", "rate", "faster", "scale", "percent", "fold"}
 _TO_A_PLACE = ("", "go", "return", "make", "shift", "halt")
 
 
@@ -134,10 +136,22 @@ def _relative_to_last(frame: Frame, script: Script) -> Frame:
     return frame
 
 
+def _says_how(frame: Frame) -> bool:
+    """`Hop slowly`, `hop twice as far`: whether the word is to be done in another way than it was taught."""
+    return bool(frame.pace or frame.direction or frame.rot or _HOW & frame.q.keys() or "other_way" in frame.flags)
+
+
+def _without_times(frame: Frame) -> Frame:
+    frame = frame.copy()
+    frame.q.pop("times", None)
+    return frame
+
+
 def _known(frame: Frame, script: Script) -> list[Step]:
     """The steps of a word that was defined, or the way to a place that was named; else none."""
     if frame.verb == "defined":
-        return list(script.memory.words[frame.words])
+        steps = list(script.memory.words[frame.words])
+        return changed(steps, _without_times(frame), script.pace) if _says_how(frame) else steps
     if not frame.place:
         return []
     goes_around = AROUND in frame.flags

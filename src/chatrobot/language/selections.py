@@ -22,19 +22,11 @@ from chatrobot.language.measures import whole_number
 from chatrobot.language.rephrase import plain_text
 from chatrobot.language.resizing import resized
 from chatrobot.language.rules import Form, forms_of
+from chatrobot.language.step_kinds import is_of_kind, kind_named, places_of
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import once_of
-from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
-
-_KINDS: dict[str, tuple[type[Step], ...]] = {
-    "step": (Step,),
-    "turn": (Turn,),
-    "leg": (Drive, Arc),
-    "said": (Step,),
-    "move": (Step,),
-    "wait": (Wait,),
-}
+from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
 _WITHOUT = ("without", "without_nth", "without_only")
 
@@ -74,7 +66,7 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
         Unclear: there is no such part.
     """
     table, said = load_table(language, "selections"), found.groupdict(default="")
-    kind = next((kind for kind, words in table["kinds"].items() if said.get("kind", "") in words), "step")
+    kind = kind_named(said.get("kind", ""), language)
     units = _units(dialogue, kind, language)
     at, count = _number(said, "nth", table), _number(said, "count", table) or 1
     last = dialogue.last_motion
@@ -134,7 +126,7 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
         return None
     table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
     named = said.get("kind", "")
-    at = [i for i, step in enumerate(steps) if isinstance(step, step_kinds(named, language))]
+    at = places_of(steps, named, language)
     nth = _number(said, "nth", table)
     if nth:
         at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
@@ -163,8 +155,7 @@ def with_part_resized(
     sizes = [atom for atom in atoms if atom.kind == "q"]
     if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "verb") for atom in atoms):
         return None
-    kind = next((kind for kind, words in table["kinds"].items() if said["kind"] in words), "step")
-    at = [i for i, step in enumerate(steps) if isinstance(step, _KINDS[kind])]
+    at = places_of(steps, said["kind"], language)
     nth = _number(said, "nth", table)
     at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
     other = _on_the_way(steps[at[0]], [atom for atom in atoms if atom.kind != "q"]) if at else None
@@ -274,15 +265,8 @@ def _units(dialogue: Dialogue, kind: str, language: str) -> list[list[Step]]:
         told = told[: whole + 1]
     turns = [list(turn.plan.steps) for turn in told if turn.plan is not None] or [[]]
     if kind == "said" or len(turns[-1]) == 1:
-        return [turn for turn in turns if kind == "said" or isinstance(turn[0], _KINDS[kind])]
-    return [[step] for step in turns[-1] if isinstance(step, _KINDS[kind])]
-
-
-def step_kinds(named: str, language: str) -> tuple[type[Step], ...]:
-    """The kinds of steps that a word like `turns` or `leg` names; all of them for any other."""
-    tables = [load_table(language, name).get("kinds", {}) for name in ("selections", "held")]
-    kinds = (kind for table in tables for kind, words in table.items() if named in words)
-    return _KINDS[next(kinds, "step")]
+        return [turn for turn in turns if kind == "said" or is_of_kind(turn[0], kind)]
+    return [[step] for step in turns[-1] if is_of_kind(step, kind)]
 
 
 def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
