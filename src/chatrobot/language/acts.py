@@ -26,6 +26,7 @@ SURE_ORDER = 1.0
 """Of a clause with higher odds the request that opens it may be left out."""
 _MEASURES = frozenset({"UNIT", "COUNTER"})
 _AMOUNTS = _MEASURES | {"NUMBER", "SCALE", "FRACTION"}
+_DOES = frozenset({"VERB", "DIR"})
 _LOOKS_BACK = 3
 SCALE = 24.0
 """A weight of one is this much in a byte."""
@@ -79,6 +80,7 @@ def orders(text: str, names: Names = ()) -> bool:
 def talk_in(reads: Sequence[Read], *, doubtful: bool = False) -> list[Read]:
     """The clauses beside an order that are only talk; with `doubtful`, also those that are rather talk than orders."""
     talk = [read for read in reads if _is_talk(read, MAYBE_ORDER if doubtful else TALK_OF_MOTION)]
+    talk += _statements(reads)
     return talk if len(talk) < len(reads) and order_log_odds(reads) >= ORDER else []
 
 
@@ -105,6 +107,19 @@ def _is_talk(read: Read, limit_of_motion: float) -> bool:
     clause = read.clause
     limit = limit_of_motion if clause.moves else TALK
     return clause.talks and not clause.binds and read.log_odds < limit
+
+
+def _statements(reads: Sequence[Read]) -> list[Read]:
+    """`Look, the robot can drive a square.`: clauses with an amount or a shape, alone in a sentence that rather tells."""
+    found, is_first = [], True
+    for read in reads:
+        clause = read.clause
+        ends = clause.end != "" and is_strong(clause.end)
+        does = any(sign.label in _DOES for sign in clause.signs)
+        if is_first and ends and does and clause.tells and not clause.binds and read.log_odds < TALK:
+            found.append(read)
+        is_first = ends or (is_first and not clause.moves)
+    return found
 
 
 def slot_of(name: str) -> int:

@@ -48,7 +48,8 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     start = _to_the_start(whole, frames, context, pace)
     if start is not None or _names_its_own(whole):
         return start
-    more = _slid_back(whole, context, pace) or _more_of_before(whole, context, pace)
+    more = _slid_back(whole, context, pace) or _driven_back(whole, context)
+    more = more or _more_of_before(whole, context, pace)
     if more is not None:
         return more
     alike = _of_the_same_shape(whole, context)
@@ -250,6 +251,22 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
     if "same_way" not in whole.flags or not back or whole.shape or {"again", "mirrored"} & whole.flags:
         return None
     return replace(all_taken_back(context, profile), walk=None)  # a way back, and a turn of its own
+
+
+def _driven_back(whole: Frame, context: Context) -> list[Step] | None:
+    """`And back`, after one drive straight ahead: as far as that."""
+    last = context.dialogue.last_motion
+    [step] = (
+        last.plan.steps
+        if last is not None and last.plan is not None and len(last.plan.steps) == 1
+        else [None]
+    )
+    bare = whole.direction == "back" and not (
+        whole.q or whole.flags or whole.pace or whole.rot or whole.shape
+    )
+    if not bare or whole.verb not in ("", *GO) or not isinstance(step, Drive) or step.until is not None:
+        return None
+    return inverse([step]) if step.direction_rad == 0.0 and step.distance_m is not None else None
 
 
 def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:

@@ -9,7 +9,7 @@ from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts, with
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount
 from chatrobot.language.command import read_command
 from chatrobot.language.facts import defined_unit
-from chatrobot.language.frames import EXTENTS
+from chatrobot.language.frames import EXTENTS, SIDES
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.last_motion import CURVES
 from chatrobot.language.names import names_in
@@ -59,6 +59,7 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     atoms = tidy(reading.atoms(plain))
     if all(atom.kind in SILENT for atom in atoms):
         return None  # a remark completes nothing
+    plain = _side_as_before(atoms, reading) or plain
     ways = [k for k, a in enumerate(atoms) if k and a.kind == "dir" and atoms[k - 1].text == a.text]
     verbs = [a for k, a in enumerate(atoms) if k + 1 not in ways and a.text not in ("say",)]
     if any(a.kind in ("verb", "shape", "place") or a.value in _OF_ITS_OWN for a in verbs):
@@ -83,6 +84,19 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
+
+
+def _side_as_before(atoms: list[Atom], reading: Reading) -> str:
+    """The side that `the same way`, or the other, means after a turn or an arc; empty for any other text."""
+    said = {atom.value for atom in atoms if atom.kind not in SILENT}
+    last = reading.context.dialogue.last_motion
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    if len(said) != 1 or not said <= {"same_way", "other_way"} or not steps:
+        return ""
+    step = steps[-1]
+    if not isinstance(step, (Turn, Arc)):
+        return ""
+    return SIDES[step.left == ("other_way" in said)]
 
 
 def _goes_elsewhere(before: str, atoms: list[Atom], reading: Reading) -> bool:

@@ -52,6 +52,7 @@ def completed(frame: Frame, state: State) -> Frame:
     length = frame.q.get("length")
     if length is not None and length.role:
         state.unit_m = float(length.role)
+    _check_goes_on_sliding(frame, state)
     frame = _with_same_amount(_the_same_to(frame, state), state)
     state.length = frame.q.get("length", state.length)
     state.angle = frame.q.get("angle", frame.q.get("turns", state.angle))
@@ -60,6 +61,20 @@ def completed(frame: Frame, state: State) -> Frame:
     if scale is not None and before is not None and frame.moves and not frame.has_extent:
         return _with(frame, "scale", quantity(before.value, before.number * scale.number, scale.text))
     return _with_unit(frame, state) if "number" in frame.q else frame
+
+
+def _check_goes_on_sliding(frame: Frame, state: State) -> None:
+    """`Slide right 1 m, then left`: to slide or to turn, and how far?
+
+    Raises:
+        Unclear: where a side alone comes after a slide.
+    """
+    slid = state.last == "drive" and state.direction in SIDES
+    alone = frame.direction in SIDES and not (
+        frame.verb or frame.rot or frame.q or frame.flags or frame.shape
+    )
+    if slid and alone and frame.joined != "start":
+        raise Unclear("how_far", frame.text)
 
 
 def _amount_before(frame: Frame, state: State) -> Atom | None:

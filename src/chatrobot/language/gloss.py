@@ -23,6 +23,7 @@ _WORD = re.compile(r"[^\W\d_]+")
 _MARKED = re.compile(rf"([\w~]+)\{VERB}")
 _CHANGED = re.compile(r"([aou])e(?![aeou])")
 _LEAST_STEM, _LEAST_MENDED = 4, 5
+_NEGATIVE, _MINUS = re.compile(r"(?<![\w.,])-\.?\d"), re.compile(r"(?<![\w.,])- (?=\.?\d)")
 _SPACES = re.compile(r"[ \t]+")
 _SENTENCE = re.compile(r"(?<=[.!?;\n])(?!\d)")
 _BEFORE_MARK = re.compile(r" +([,.!?;:…])")
@@ -71,6 +72,7 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
         if english
     }
     out = _in_order(_tidy(" ".join(english for _, english in found)), using)
+    out = _MINUS.sub("-", out) if _NEGATIVE.search(plain) else out
     for name in names:  # `Station zwei` is `station 2`
         marked = " ".join(f"{re.escape(unit)}(?:{MARK})?" for unit in name)
         out = re.sub(rf"\b{marked}(?!\w)", " ".join(name), out)

@@ -316,8 +316,8 @@ def _is_clearly_told(plain: str, problem: Unclear, told: Sequence[Read], odds: M
 def _may_change(read: Read, odds: Mapping[int, Aside]) -> bool:
     """Whether what stands beside a reference may say how it is meant: `the same, leftish`, `the same but opposite`."""
     aside = odds.get(read.clause.start)
-    contrasts = any(sign.label == "contrast" for sign in read.clause.signs)
-    return contrasts or aside is None or aside.odds < MAYBE_ASIDE
+    points = any(sign.label in ("contrast", "FLAG") for sign in read.clause.signs)
+    return points or aside is None or aside.odds < MAYBE_ASIDE
 
 
 def _may_order(read: Read) -> bool:

@@ -106,7 +106,8 @@ def names_in(context: Context) -> dict[Key, Meaning]:
     dialogue = context.dialogue
     names: dict[Key, Meaning] = {}
     for name in (*context.world_places, *dialogue.places):
-        names[cut(normalise(word_of(name)))] = (("place", name),)
+        if ("num", "article") not in lexicon().words.get(cut(name), ()):  # `half a metre` names no place
+            names[cut(normalise(word_of(name)))] = (("place", name),)
         if len(name) == 1:  # A is also called `point A`, 去A点
             for language in LANGUAGES:
                 for written in load_table(language, "dialogue_forms").get("letter_places", ()):

@@ -134,8 +134,8 @@ def _passes(units: list[list[Step]]) -> list[list[Step]]:
     return [[step for unit in units[k : k + once] for step in unit] for k in range(0, len(units), once)]
 
 
-def insert_halfway(script: Script, frame: Frame) -> None:
-    """往前两米，到一半的时候停两秒: the last motion in two halves."""
+def insert_halfway(script: Script, frame: Frame, *, goes_on: bool = False) -> None:
+    """往前两米，到一半的时候停两秒: the last motion in two halves; the first alone where it stops there for good."""
     halves = _halves(script.units[-1][0]) if script.units and len(script.units[-1]) == 1 else None
     if halves is None:
         raise Unclear("between_what", frame.text)
@@ -146,7 +146,8 @@ def insert_halfway(script: Script, frame: Frame) -> None:
     steps = act(inner, State(), script.pace)
     if isinstance(halves[0], Arc) and not all(isinstance(step, (Wait, Say)) for step in steps):
         raise Unclear("unclear_motion", frame.text)  # half of the circle, or something half way round?
-    script.units[-1:] = [[halves[0]], steps, [halves[1]]]
+    stays = inner.verb == "halt" and not steps and not goes_on
+    script.units[-1:] = [[halves[0]]] if stays else [[halves[0]], steps, [halves[1]]]
 
 
 def insert_at(script: Script, place: Frame, stop: Frame) -> None:

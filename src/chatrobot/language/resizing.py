@@ -64,7 +64,13 @@ def _changed_to(step: Step, role: str, number: float) -> Step:
 
 
 def with_value(step: Step, value: float) -> Step:
-    """The step over that distance, or by that angle."""
+    """The step over that distance, or by that angle.
+
+    Raises:
+        Unclear: where that is no amount.
+    """
+    if value <= 0.0:
+        raise Unclear("bad_number", f"{value:g}")
     if isinstance(step, Drive):
         return dataclasses.replace(step, distance_m=value, duration_s=None)
     return dataclasses.replace(step, angle_rad=value, duration_s=None) if isinstance(step, Turn) else step

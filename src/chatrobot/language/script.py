@@ -138,7 +138,9 @@ def _relative_to_last(frame: Frame, script: Script) -> Frame:
 
 def _says_how(frame: Frame) -> bool:
     """`Hop slowly`, `hop twice as far`: whether the word is to be done in another way than it was taught."""
-    return bool(frame.pace or frame.direction or frame.rot or _HOW & frame.q.keys() or "other_way" in frame.flags)
+    return bool(
+        frame.pace or frame.direction or frame.rot or _HOW & frame.q.keys() or "other_way" in frame.flags
+    )
 
 
 def _without_times(frame: Frame) -> Frame:

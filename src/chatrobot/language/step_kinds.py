@@ -20,7 +20,9 @@ def _goes(step: Step, left: bool) -> bool:
 def _drives(step: Step, forward: bool) -> bool:
     if isinstance(step, Arc):
         return step.backward != forward
-    return isinstance(step, Drive) and not is_sideways(step) and (math.cos(step.direction_rad) > 0.0) == forward
+    return (
+        isinstance(step, Drive) and not is_sideways(step) and (math.cos(step.direction_rad) > 0.0) == forward
+    )
 
 
 _KINDS: Mapping[str, Callable[[Step], bool]] = {

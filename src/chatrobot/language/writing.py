@@ -256,8 +256,8 @@ def _on_the_way(script: Script, frames: list[Frame], i: int) -> int | None:
     """`halfway wait 2 s`, 走到一米的地方停三秒: a pause that cuts the last motion in two."""
     frame, after = frames[i], frames[i + 1] if i + 1 < len(frames) else None
     if "halfway" in frame.flags:
-        insert_halfway(script, frame)
         goes_on = after is not None and after.verb == "go" and not (after.has_extent or after.direction)
+        insert_halfway(script, frame, goes_on=goes_on)
         return i + 1 + goes_on
     if "at_point" in frame.flags:
         if after is None or after.verb not in STILL:
