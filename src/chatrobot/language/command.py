@@ -133,6 +133,10 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     return replace(plan, corrects=corrects)
 
 
+_MOST_SAID_OF_PART = 2
+"""Words of motion and amounts beside a part that is named: `add 20 cm to the first step`. More are a new list."""
+
+
 def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | None:
     """What takes its steps from turns before: a part of them, the whole changed, or the same after a motion of its own.
 
@@ -173,7 +177,10 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     changed = edited(atoms, dialogue)
     leaves_out = any(a.value in ("leave_out", "first", "swapped") for a in atoms)
     again = any(a.value == "again" for a in atoms)
-    if again and not (changed is not None and leaves_out) and names_a_part(plain, language):
+    told = sum(a.kind in ("verb", "q", "shape", "dir", "rot") for a in atoms)
+    undoes = any((a.kind, a.value) == ("verb", "undo") for a in atoms)
+    points = again or (len(before) > 1 and told <= _MOST_SAID_OF_PART and not undoes)
+    if points and not (changed is not None and leaves_out) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed
 

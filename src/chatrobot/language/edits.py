@@ -118,6 +118,8 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if "reversed" in flags:
         return None if flags - {"again", "reversed"} or edit.amounts or edit.way else steps[::-1]
     if "swapped" in flags:
+        if "both" in flags and len(steps) > 2:
+            raise Unclear("nothing_before")  # which two of them?
         return _swapped(steps)
     if "first" in flags:
         return _reordered(steps, edit)
@@ -214,7 +216,7 @@ def _to_side(steps: list[Step], left: bool, *, is_named: bool, goes_on: bool) ->
     """`Now to the right` after a slide, `now one to the right` after a figure: in the manner of the motion before."""
     if len(steps) == 1 and is_sideways(steps[0]):
         return steps if _heads_left(steps[0]) == left else [flipped(steps[0])]
-    is_named |= goes_on and len(steps) == 1  # `and right`, after `turn left 30`
+    is_named |= len(steps) == 1 and (goes_on or isinstance(steps[0], Arc))  # `and right`, after `turn left 30`
     return mirrored(steps, left) if is_named else None
 
 

@@ -66,7 +66,7 @@ from chatrobot.language.starting import (
 from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.unfinished import check_consistent, check_unconditional
+from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan
@@ -166,8 +166,9 @@ class OfflineInterpreter:
             dialogue = replace(reading.context.dialogue, turns=(), pending="")
             return read(part, replace(reading.context, dialogue=dialogue))
 
-        names, plain = names_in(reading.context), normalise(text)
-        unit = unit_after(reading.context)
+        names, plain, unit = names_in(reading.context), normalise(text), unit_after(reading.context)
+        if is_choice(plain, reading.language):
+            return None  # `left or right, 30 cm`: without that clause it would be another order
         pointed = beside_reference(plain, read_acts(plain, names), read, read_anew)
         if pointed is not None:
             return pointed
@@ -211,7 +212,7 @@ class OfflineInterpreter:
         names = names_in(context)
         reads = read_acts(plain, names)
         apart = set_off(plain, reads, language, names)
-        talk = [read for read in reads if read in (*apart, *talk_in(reads))]
+        talk = [] if is_choice(plain, language) else [r for r in reads if r in (*apart, *talk_in(reads))]
         if read_definition(plain, language) is not None:
             talk = []  # `our dance goes like this: …`
         rest, missing = without(plain, reads, talk), None

@@ -44,7 +44,7 @@ def instead(
         return None  # a total is reached from where it is
     if not last.moved or (last.walk is not None and last.walk.kind == "undo"):
         return None  # after `undo that` nothing is left to be put right
-    back = taken_back(context, profile, 1).steps
+    back = taken_back(context, profile, _corrected_turns(context)).steps
     done = list(last.plan.steps)
     if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:
         _point_back(frames[0], done)
@@ -55,7 +55,15 @@ def instead(
         raise Unclear("unclear_motion", frames[0].text)  # `no, the other left`
     turned = all(isinstance(step, Turn) for step in done)
     absolute = isinstance(meant[0], Go) or (isinstance(meant[0], Face) and turned)
-    return meant if absolute else _net([*back, *meant])
+    return meant if absolute else _net(back, meant)
+
+
+def _corrected_turns(context: Context) -> int:
+    """How many of the last turns are put right: the last one, and what it put right itself."""
+    turns, count = context.dialogue.turns, 1
+    while count < len(turns) and is_correction(turns[-count]):
+        count += 1
+    return count
 
 
 def _point_back(frame: Frame, done: list[Step]) -> None:
@@ -77,21 +85,29 @@ def _point_back(frame: Frame, done: list[Step]) -> None:
     frame.flags.add("again")
 
 
-def _net(steps: list[Step]) -> list[Step]:
+def _net(back: Sequence[Step], meant: Sequence[Step]) -> list[Step]:
     """The way back and the way that was meant in one, where they lie on one line: 20 cm more, not 50 back and 70 on."""
-    back, on = steps[0], steps[1]
-    one_each = len(steps) == 2
-    if one_each and isinstance(back, Turn) and isinstance(on, Turn) and back.angle_rad and on.angle_rad:
-        net = sum(step.angle_rad * (1 if step.left else -1) for step in (back, on) if step.angle_rad)
-        return [replace(on, angle_rad=abs(net), left=net > 0)] if abs(net) > 1e-6 else steps
-    if one_each and isinstance(back, Drive) and isinstance(on, Drive) and back.distance_m and on.distance_m:
-        off = math.remainder(back.direction_rad - on.direction_rad, 2 * math.pi)
-        if on.until is None and abs(math.sin(off)) < 1e-6:
-            net = on.distance_m + back.distance_m * math.cos(off)
-            turned = math.remainder(on.direction_rad + math.pi, 2 * math.pi)
-            way = on.direction_rad if net > 0 else turned
-            return [replace(on, distance_m=abs(net), direction_rad=way)] if abs(net) > 1e-6 else steps
-    return steps
+    [*line] = *back, *meant
+    while len(meant) == 1 and len(line) > 1:
+        both = _in_one(line[0], line[1])
+        if both is None:
+            break
+        line[:2] = [both]
+    return line if len(line) == 1 else [*back, *meant]
+
+
+def _in_one(first: Step, then: Step) -> Step | None:
+    """Two turns, or two drives on one line, as one; None where they are others, or lead nowhere."""
+    if isinstance(first, Turn) and isinstance(then, Turn) and first.angle_rad and then.angle_rad:
+        net = sum(step.angle_rad * (1 if step.left else -1) for step in (first, then) if step.angle_rad)
+        return replace(then, angle_rad=abs(net), left=net > 0) if abs(net) > 1e-6 else None
+    if isinstance(first, Drive) and isinstance(then, Drive) and first.distance_m and then.distance_m:
+        off = math.remainder(first.direction_rad - then.direction_rad, 2 * math.pi)
+        net = then.distance_m + first.distance_m * math.cos(off)
+        if then.until is None and abs(math.sin(off)) < 1e-6 and abs(net) > 1e-6:
+            turned = math.remainder(then.direction_rad + math.pi, 2 * math.pi)
+            return replace(then, distance_m=abs(net), direction_rad=then.direction_rad if net > 0 else turned)
+    return None
 
 
 def is_correction(record: TurnRecord | None) -> bool:

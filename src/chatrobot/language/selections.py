@@ -153,11 +153,11 @@ def with_part_resized(
     table, said = load_table(language, "selections"), found.groupdict(default="")
     steps = list(last.plan.steps)
     sizes = [atom for atom in atoms if atom.kind == "q"]
-    if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "verb") for atom in atoms):
+    if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "rot", "verb") for atom in atoms):
         return None
     at = places_of(steps, said["kind"], language)
     nth = _number(said, "nth", table)
-    at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
+    at = (at[nth - 1 :] if nth > 0 else at[nth:])[:1] if nth else at if len(at) == 1 else []
     other = _on_the_way(steps[at[0]], [atom for atom in atoms if atom.kind != "q"]) if at else None
     changed = resized([other], Edit(amounts=sizes)) if other and sizes else [other] if other else None
     if changed is None:
@@ -167,8 +167,8 @@ def with_part_resized(
 
 def _on_the_way(step: Step, said: Sequence[Atom]) -> Step | None:
     """The step as it goes the way that is said; None where that is no way for it."""
-    ways = {atom.value for atom in said if atom.kind == "dir"}
-    turns = {atom.value in TURN for atom in said if atom.kind == "verb"}
+    ways = {atom.value for atom in said if atom.kind in ("dir", "rot")}
+    turns = {atom.kind == "rot" or atom.value in TURN for atom in said if atom.kind in ("verb", "rot")}
     if turns - {isinstance(step, Turn)} or len(ways) > 1:
         return None
     if not ways:

@@ -1,4 +1,4 @@
-"""Which steps a word names: `the turns`, `the second leg`, `the slide`, 右转. The words are `kinds` of `selections.toml`."""
+"""Which steps a word names: `the turns`, `the second leg`, `the slide`, 右转. The words are in `selections.toml`."""
 
 from __future__ import annotations
 
@@ -26,9 +26,7 @@ def _drives(step: Step, forward: bool) -> bool:
 
 
 _KINDS: Mapping[str, Callable[[Step], bool]] = {
-    "step": lambda step: True,
-    "said": lambda step: True,
-    "move": lambda step: True,
+    **dict.fromkeys(("step", "said", "move"), lambda _: True),
     "turn": lambda step: isinstance(step, Turn),
     "leg": lambda step: isinstance(step, (Drive, Arc)),
     "wait": lambda step: isinstance(step, Wait),
