@@ -129,7 +129,8 @@ def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
         atom.kind in ("verb", "dir", "rot", "shape") or (atom.kind == "q" and atom.value not in _TURNED)
         for atom in atoms
     )
-    if denied is not None and not told and any(isinstance(step, Turn) for step in steps):
+    bends = any(isinstance(step, Arc) for step in steps)
+    if denied is not None and (bends or (not told and any(isinstance(step, Turn) for step in steps))):
         raise Unclear("unclear_motion", denied.text)
 
 
