@@ -110,7 +110,7 @@ def _is_talk(read: Read, limit_of_motion: float) -> bool:
 
 
 def _statements(reads: Sequence[Read]) -> list[Read]:
-    """`Look, the robot can drive a square.`: what is alone in a sentence that rather tells, with an amount or a shape."""
+    """`Look, the robot can drive a square.`: what stands alone in a sentence that rather tells, with an amount."""
     found, is_first = [], True
     for read in reads:
         clause = read.clause

@@ -177,9 +177,9 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     changed = edited(atoms, dialogue)
     leaves_out = any(a.value in ("leave_out", "first", "swapped") for a in atoms)
     again = any(a.value == "again" for a in atoms)
-    told = sum(a.kind in ("verb", "q", "shape", "dir", "rot") for a in atoms)
+    said = sum(a.kind in ("verb", "q", "shape", "dir", "rot") for a in atoms)
     undoes = any((a.kind, a.value) == ("verb", "undo") for a in atoms)
-    points = again or (len(before) > 1 and told <= _MOST_SAID_OF_PART and not undoes)
+    points = again or (len(before) > 1 and said <= _MOST_SAID_OF_PART and not undoes)
     if points and not (changed is not None and leaves_out) and names_a_part(plain, language):
         raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
     return changed

@@ -41,6 +41,11 @@ class Dialogue:
         """The last turn that had a plan."""
         return next((turn for turn in reversed(self.turns) if turn.plan is not None), None)
 
+    @property
+    def last_text(self) -> str:
+        """What the last turn that had a plan was told; empty where there was none."""
+        return self.last_motion.text if self.last_motion is not None else ""
+
     @cached_property
     def ledger(self) -> Ledger:
         """What of it can be undone, and done again."""

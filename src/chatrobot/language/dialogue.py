@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.core.geometry import wrap_angle
+from chatrobot.language.back import driven_back, only_slid, only_turned, slid_back
 from chatrobot.language.changes import a_bit_of, changed, is_change, steps_named
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edits import mirrored
-from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
-from chatrobot.language.inverse import flipped, inverse, is_sideways
+from chatrobot.language.frames import GO, SIDES, Frame
+from chatrobot.language.inverse import flipped, inverse
 from chatrobot.language.last_motion import check_answers_nothing, motion_meant, shapes_said, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
@@ -20,8 +21,8 @@ from chatrobot.language.numbers import is_chinese
 from chatrobot.language.repeats import repeats_all
 from chatrobot.language.totals import to_total
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import FAR_RAD, NEAR_M, PACES, Walked, all_taken_back, last_two, redone, undone
-from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn, Wait
+from chatrobot.language.undo import FAR_RAD, PACES, Walked, all_taken_back, last_two, redone, undone
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn
 from chatrobot.robots.profile import RobotProfile
 
 _ONE_MORE = frozenset({"again", "more", "extra", "same_amount"})
@@ -48,7 +49,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     start = _to_the_start(whole, frames, context, pace)
     if start is not None or _names_its_own(whole):
         return start
-    more = _slid_back(whole, context, pace) or _driven_back(whole, context)
+    more = slid_back(whole, context, pace) or driven_back(whole, context)
     more = more or _more_of_before(whole, context, pace)
     if more is not None:
         return more
@@ -80,7 +81,7 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
     _check_not_counted(whole, frames)
     if {"bit", "halfway"} & flags and not is_chinese(whole.text):
         raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
-    if ("to_start" not in flags and _only_turned(context)) or _only_slid(context):
+    if ("to_start" not in flags and only_turned(context)) or only_slid(context):
         return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
     return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
 
@@ -114,21 +115,6 @@ def _faced_as_before(whole: Frame, context: Context, pace: Pace) -> list[Step] |
     if set(whole.q) - {"rate", "percent", "faster"}:
         raise Unclear("unclear_motion", whole.text)
     return [Face(_heading_before(whole, context.dialogue), frame="odom", rate_radps=pace.rate(whole))]
-
-
-def _slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
-    """`Then slide back`, `a bit further left`, after a slide: no turn."""
-    last = context.dialogue.last_motion
-    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
-    if not slid or whole.q:
-        return None
-    if (whole.verb, whole.direction) == ("slide", "back") and not whole.flags:
-        return inverse(list(steps_of(last)), pace.speed(whole))
-    a_bit = whole.flags in ({"bit"}, {"bit", "more"}) and whole.verb in ("", "go", "shift") and not whole.rot
-    if not a_bit or whole.direction not in SIDES:
-        return None
-    bit = a_bit_of(steps_of(last), whole, pace)
-    return [replace(bit, direction_rad=DIRECTIONS[whole.direction])] if isinstance(bit, Drive) else None
 
 
 def _changed(whole: Frame, context: Context, pace: Pace) -> list[Step]:
@@ -200,25 +186,6 @@ def _is_one_of_several(dialogue: Dialogue) -> bool:
     return len(plans) > 1 and len(plans[-1].steps) == 1 and isinstance(plans[-1].steps[0], (Drive, Turn))
 
 
-def _only_turned(context: Context) -> bool:
-    """Whether the last motion turned on the spot where it all began: there `and back` is a turn."""
-    last = context.dialogue.last_motion
-    turned = (
-        last is not None and last.plan and all(isinstance(step, (Turn, Wait)) for step in last.plan.steps)
-    )
-    return bool(turned) and context.state.pose.distance_to(context.dialogue.start_pose) <= NEAR_M
-
-
-def _only_slid(context: Context) -> bool:
-    """Whether the last motion slid sideways from where it all began: the way back is a slide as well, and no turn."""
-    last, start = context.dialogue.last_motion, context.dialogue.start_pose
-    steps = last.plan.steps if last is not None and last.plan is not None else ()
-    if last is None or len(steps) != 1 or not is_sideways(steps[0]):
-        return False
-    off_rad = wrap_angle(last.start_pose.yaw_rad - start.yaw_rad)
-    return last.start_pose.distance_to(start) <= NEAR_M and abs(off_rad) <= FAR_RAD / 4
-
-
 def walked(frames: Sequence[Frame], context: Context, pace: Pace) -> Walked | None:
     """What an utterance does that undoes earlier turns, or does again what was undone; None where it does neither.
 
@@ -251,22 +218,6 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
     if "same_way" not in whole.flags or not back or whole.shape or {"again", "mirrored"} & whole.flags:
         return None
     return replace(all_taken_back(context, profile), walk=None)  # a way back, and a turn of its own
-
-
-def _driven_back(whole: Frame, context: Context) -> list[Step] | None:
-    """`And back`, after one drive straight ahead: as far as that."""
-    last = context.dialogue.last_motion
-    [step] = (
-        last.plan.steps
-        if last is not None and last.plan is not None and len(last.plan.steps) == 1
-        else [None]
-    )
-    bare = whole.direction == "back" and not (
-        whole.q or whole.flags or whole.pace or whole.rot or whole.shape
-    )
-    if not bare or whole.verb not in ("", *GO) or not isinstance(step, Drive) or step.until is not None:
-        return None
-    return inverse([step]) if step.direction_rad == 0.0 and step.distance_m is not None else None
 
 
 def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:

@@ -216,7 +216,9 @@ def _to_side(steps: list[Step], left: bool, *, is_named: bool, goes_on: bool) ->
     """`Now to the right` after a slide, `now one to the right` after a figure: in the manner of the motion before."""
     if len(steps) == 1 and is_sideways(steps[0]):
         return steps if _heads_left(steps[0]) == left else [flipped(steps[0])]
-    is_named |= len(steps) == 1 and (goes_on or isinstance(steps[0], Arc))  # `and right`, after `turn left 30`
+    is_named |= len(steps) == 1 and (
+        goes_on or isinstance(steps[0], Arc)
+    )  # `and right`, after `turn left 30`
     return mirrored(steps, left) if is_named else None
 
 

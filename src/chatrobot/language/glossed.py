@@ -13,7 +13,7 @@ from chatrobot.core.event import Proposal
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES
 from chatrobot.language.detect import language_of, spoken
-from chatrobot.language.gloss import Gloss, gloss
+from chatrobot.language.gloss import MARK, Gloss, gloss
 from chatrobot.language.interpretation import Interpretation, LanguageCode, stopped
 from chatrobot.language.names import names_in
 from chatrobot.language.own_words import in_own_words
@@ -101,7 +101,11 @@ def _as_said_before(meant: Interpretation, said: Context, known: Context) -> Int
     reply = meant.reply
     for was, now in zip(said.dialogue.turns, known.dialogue.turns):
         if was is not now:
-            reply = _quoted(reply, now.text[:_SHOWN], was.text[:_SHOWN])
+            for quoted in (now.text[:_SHOWN], now.text[:_SHOWN].replace(MARK, "")):
+                reply = _quoted(reply, quoted, was.text[:_SHOWN])
+    waited, was_waited = known.dialogue.pending, said.dialogue.pending
+    if waited != was_waited:
+        reply = _quoted(reply, waited[:_SHOWN], was_waited[:_SHOWN])
     return replace(meant, reply=reply)
 
 

@@ -20,6 +20,8 @@ _CODES: Mapping[str, LanguageCode] = {code: code for code in get_args(LanguageCo
 Outcome = Literal["plan", "stop", "unclear", "refused", "answered"]
 
 
+_QUOTED = 60
+"""So much of the text of the motion before is quoted."""
 _ROUNDED = ("distance_m", "duration_s", "radius_m", "speed_mps", "angle_rad")
 
 
@@ -153,8 +155,11 @@ def stopped(language: LanguageCode) -> Interpretation:
     return Interpretation("stop", say(language, "stop"), language)
 
 
-def asked_back(problem: Unclear, language: LanguageCode) -> Interpretation:
-    """It was not understood, or is refused."""
+def asked_back(problem: Unclear, language: LanguageCode, before: str = "") -> Interpretation:
+    """It was not understood, or is refused. `before` is what the motion before was told, if there was one."""
     outcome: Outcome = "refused" if problem.refused else "unclear"
-    reply = say(language, problem.code, part=problem.part)
+    if problem.code == "nothing_before" and before:
+        reply = say(language, "nothing_in_before", before=before[:_QUOTED])
+    else:
+        reply = say(language, problem.code, part=problem.part)
     return Interpretation(outcome, reply, language, unaccounted=problem.part, code=problem.code)

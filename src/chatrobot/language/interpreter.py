@@ -7,14 +7,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot import reflex
-from chatrobot.core.event import Proposal
 from chatrobot.language import questions
 from chatrobot.language.acts import (
     MAYBE_ORDER,
     ORDER,
     Read,
     order_log_odds,
-    orders,
     read_acts,
     talk_in,
     without,
@@ -26,7 +24,6 @@ from chatrobot.language.beside import (
     odds_beside_asides,
     refers_alone,
 )
-from chatrobot.language.command import read_command
 from chatrobot.language.compass import split_convention
 from chatrobot.language.consent import after_consent
 from chatrobot.language.context import Context
@@ -42,7 +39,8 @@ from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import with_tails_parted
 from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
-from chatrobot.language.names import misspelt_place, names_in, naming_points, with_points
+from chatrobot.language.misspelt import misspelt_place
+from chatrobot.language.names import names_in, naming_points, with_points
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import say
@@ -69,7 +67,6 @@ from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
 from chatrobot.plan.steps import Plan, Step, Wait
-from chatrobot.plan.text import format_plan
 from chatrobot.robots.profile import RobotProfile
 
 _OF_AN_ORDER = frozenset(
@@ -127,12 +124,13 @@ class OfflineInterpreter:
                 return meant
             reading = Reading(language, context, self._profile)
             asked = (
-                _did_you_mean(problem, text, reading)
+                misspelt_place(problem, text, reading)
                 or self._remarked(text, reading)
                 or self._likeliest(problem, text, reading)
             )
             asked = asked or (meant if meant is not None and meant.proposal is not None else None)
-            return replace(asked or asked_back(problem, language), corrects=says_meant(text))
+            asked = asked or asked_back(problem, language, context.dialogue.last_text)
+            return replace(asked, corrects=says_meant(text))
 
     def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:
         """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises."""
@@ -326,26 +324,3 @@ class OfflineInterpreter:
 
 def _moves(plan: Plan | None) -> list[Step]:
     return [step for step in (plan.steps if plan is not None else ()) if not isinstance(step, Wait)]
-
-
-def _did_you_mean(problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
-    """The question whether a place was misspelt, if it looks so and the rest is understood; it offers the plan."""
-    language = reading.language
-    if problem.code != "unknown_part" or not orders(normalise(text), names_in(reading.context)):
-        return None
-    meant = misspelt_place(rephrased(normalise(text), language), problem.part, reading.context)
-    try:
-        plan = read_command(meant.text, reading).plan if meant is not None else None
-    except Unclear:
-        return None
-    if meant is None or plan is None:
-        return None
-    ask = say(language, "did_you_mean_place", place=meant.place)
-    return Interpretation(
-        "unclear",
-        f"{say(language, 'unknown_place', part=problem.part)} {ask}",
-        language,
-        unaccounted=problem.part,
-        code="did_you_mean_place",
-        proposal=Proposal(format_plan(plan), ask),
-    )

@@ -34,6 +34,7 @@ from chatrobot.language.left_out import Span, place_of, told_spans
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.numbers import FAR_M
 from chatrobot.language.phrases import describe_plan, say
+from chatrobot.language.pointing import may_change
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, Sign, clauses_of
 from chatrobot.language.strange_words import is_bound, is_complete, strange_spans
@@ -106,7 +107,7 @@ def likeliest(
     gone = [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]
     is_sure = bool(apart) or not problem.refused or _is_clearly_told(plain, problem, told, odds)
     is_sure &= not any_may_bear(reads, [read for read in gone if read not in apart])
-    is_sure &= not (pointing and any(_may_change(read, odds) for read in gone if read not in apart))
+    is_sure &= not (pointing and any(may_change(read, odds) for read in gone if read not in apart))
     rest = _kept(plain, [read for read in reads if read not in gone])
     parts = tuple(_said(plain, read).strip(" ,.;:!") for read in gone)
     try:
@@ -311,13 +312,6 @@ def _is_clearly_told(plain: str, problem: Unclear, told: Sequence[Read], odds: M
     squeezed = "".join(problem.part.split())
     refused = [read for read in told if squeezed in "".join(_said(plain, read).split())]
     return bool(told) and all(odds[read.clause.start].odds >= SURELY_NOT_MEANT for read in refused)
-
-
-def _may_change(read: Read, odds: Mapping[int, Aside]) -> bool:
-    """Whether what stands beside a reference may say how it is meant: `the same, leftish`, `the same but opposite`."""
-    aside = odds.get(read.clause.start)
-    points = any(sign.label in ("contrast", "FLAG") for sign in read.clause.signs)
-    return points or aside is None or aside.odds < MAYBE_ASIDE
 
 
 def _may_order(read: Read) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import NamedTuple
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language import forms
@@ -14,9 +13,7 @@ from chatrobot.language.data_files import LANGUAGES, expand, load_table
 from chatrobot.language.facts import unit_length_m
 from chatrobot.language.lexicon import Meaning, cut, lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.typos import edit_distance
 
-_SHORTEST_NAME, _LONG_NAME = 4, 8
 _NUMBER = r"([-+]?\d*\.?\d+) ?m?"
 _POINT = re.compile(
     rf"[(（] ?{_NUMBER} ?[,，] ?{_NUMBER} ?[)）]"
@@ -56,38 +53,6 @@ def naming_points(said: str, context: Context) -> str:
 def word_of(name: str) -> str:
     """The name of a place as it is looked up in a text: that of a point is one word of letters."""
     return "xy" + name.translate(_LETTERS) if _POINT.fullmatch(name) else name
-
-
-class Misspelt(NamedTuple):
-    """The place that was probably meant, and the text with its name."""
-
-    place: str
-    text: str
-
-
-def misspelt_place(text: str, part: str, context: Context) -> Misspelt | None:
-    """What `text` (normalised) means if the words `part`, which nothing explains, misspell the name of a place.
-
-    None where no name, or more than one, is that near. It is to be asked about, never acted on.
-    """
-    units, unknown = cut(text), set(part.split())
-    found: dict[str, Misspelt] = {}
-    for name in (*context.world_places, *context.dialogue.places):
-        key = cut(normalise(name))
-        for at in range(len(units) - len(key) + 1):
-            written = units[at : at + len(key)]
-            if unknown & set(written) and _is_near(" ".join(written), " ".join(key)):
-                mended = " ".join((*units[:at], *key, *units[at + len(key) :]))
-                found[name] = Misspelt(name, mended)
-    return next(iter(found.values())) if len(found) == 1 else None
-
-
-def _is_near(written: str, name: str) -> bool:
-    """One letter off, or two in a long name."""
-    if not name.isascii() or len(name) < _SHORTEST_NAME:
-        return False
-    off = 2 if len(name) >= _LONG_NAME else 1
-    return edit_distance(written, name, off) <= off
 
 
 def without_light_words(names: dict[Key, Meaning]) -> dict[Key, Meaning]:

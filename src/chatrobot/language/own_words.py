@@ -10,7 +10,18 @@ from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.lexicon import UNIT
 from chatrobot.language.normalise import normalise
 
-_QUOTING = frozenset({"unknown_part", "unclear_motion", "did_you_mean", "how_long_a_step"})
+_QUOTING = frozenset(
+    {
+        "unknown_part",
+        "unclear_motion",
+        "did_you_mean",
+        "how_long_a_step",
+        "contradiction",
+        "condition",
+        "no_unit",
+        "how_far",
+    }
+)
 """Codes whose replies quote what was not understood."""
 _OPENING, _CLOSING = '“„"', '”“"'
 _MARKS = " ,.;:!?，。；：！？…\n"

@@ -7,10 +7,10 @@ beside other orders.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from chatrobot.language.acts import ORDER, Read, order_log_odds, without
-from chatrobot.language.beside import SURE_ASIDE, Aside, asides, is_reported, refers
+from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, Aside, asides, is_reported, refers
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Go
@@ -68,3 +68,10 @@ def _is_talk(read: Read, aside: Aside | None) -> bool:
     if labels & _HOLDING or not moving <= _LOOSE or refers(clause):
         return False
     return aside.odds >= (SURE_ASIDE if clause.denies or "VERB" in moving else LEAST)
+
+
+def may_change(read: Read, odds: Mapping[int, Aside]) -> bool:
+    """Whether what stands beside a reference may say how it is meant: `the same, leftish`, `the same but opposite`."""
+    aside = odds.get(read.clause.start)
+    points = any(sign.label in ("contrast", "FLAG") for sign in read.clause.signs)
+    return points or aside is None or aside.odds < MAYBE_ASIDE

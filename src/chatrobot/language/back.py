@@ -1,0 +1,65 @@
+"""The way back from one motion that is the last: `then slide back`, `and back`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from chatrobot.core.geometry import wrap_angle
+from chatrobot.language.changes import a_bit_of
+from chatrobot.language.context import Context
+from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
+from chatrobot.language.inverse import inverse, is_sideways
+from chatrobot.language.last_motion import steps_of
+from chatrobot.language.manner import Pace
+from chatrobot.language.undo import FAR_RAD, NEAR_M
+from chatrobot.plan.steps import Drive, Step, Turn, Wait
+
+
+def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`Then slide back`, `a bit further left`, after a slide: no turn."""
+    last = context.dialogue.last_motion
+    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
+    if not slid or whole.q:
+        return None
+    if (whole.verb, whole.direction) == ("slide", "back") and not whole.flags:
+        return inverse(list(steps_of(last)), pace.speed(whole))
+    a_bit = whole.flags in ({"bit"}, {"bit", "more"}) and whole.verb in ("", "go", "shift") and not whole.rot
+    if not a_bit or whole.direction not in SIDES:
+        return None
+    bit = a_bit_of(steps_of(last), whole, pace)
+    return [replace(bit, direction_rad=DIRECTIONS[whole.direction])] if isinstance(bit, Drive) else None
+
+
+def driven_back(whole: Frame, context: Context) -> list[Step] | None:
+    """`And back`, after one drive straight ahead: as far as that."""
+    last = context.dialogue.last_motion
+    [step] = (
+        last.plan.steps
+        if last is not None and last.plan is not None and len(last.plan.steps) == 1
+        else [None]
+    )
+    bare = whole.direction == "back" and not (
+        whole.q or whole.flags or whole.pace or whole.rot or whole.shape
+    )
+    if not bare or whole.verb not in ("", *GO) or not isinstance(step, Drive) or step.until is not None:
+        return None
+    return inverse([step]) if step.direction_rad == 0.0 and step.distance_m is not None else None
+
+
+def only_turned(context: Context) -> bool:
+    """Whether the last motion turned on the spot where it all began: there `and back` is a turn."""
+    last = context.dialogue.last_motion
+    turned = (
+        last is not None and last.plan and all(isinstance(step, (Turn, Wait)) for step in last.plan.steps)
+    )
+    return bool(turned) and context.state.pose.distance_to(context.dialogue.start_pose) <= NEAR_M
+
+
+def only_slid(context: Context) -> bool:
+    """Whether the last motion slid sideways from where it all began: the way back is a slide as well, and no turn."""
+    last, start = context.dialogue.last_motion, context.dialogue.start_pose
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    if last is None or len(steps) != 1 or not is_sideways(steps[0]):
+        return False
+    off_rad = wrap_angle(last.start_pose.yaw_rad - start.yaw_rad)
+    return last.start_pose.distance_to(start) <= NEAR_M and abs(off_rad) <= FAR_RAD / 4
