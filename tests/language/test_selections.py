@@ -88,3 +88,73 @@ def test_another_length_with_a_shape_is_its_side(before: str, text: str) -> None
 
 def test_another_length_after_sides_of_two_lengths_is_asked_about() -> None:
     assert done("drive a rectangle of 1 m by 2 m", "now with 30 cm") == "unclear"
+
+
+LIST = "turn left 90, forward 20 cm, slide right 30 cm"
+REST = "turn left 90 deg; drive 0.2 m"
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        ((LIST, "again, but skip the slide"), REST),
+        ((LIST, "again, skip the left"), "drive 0.2 m; drive 0.3 m right"),
+        ((LIST, "without the turn"), "drive 0.2 m; drive 0.3 m right"),
+        (("前进半米，右转九十度", "去掉右转再来一遍"), "drive 0.5 m"),
+        (("左转九十度，前进半米，右转45度", "除了最后一步都做一遍"), "turn left 90 deg; drive 0.5 m"),
+        (("左转九十度，前进半米，右转45度", "不要右转，再来一次"), "turn left 90 deg; drive 0.5 m"),
+        (("前进半米，左转30度", "顺序反过来再做一遍"), "turn left 30 deg; drive 0.5 m"),
+    ],
+)
+def test_a_part_that_is_named_by_its_way_is_left_out(turns: tuple[str, ...], plan: str) -> None:
+    assert done(*turns) == plan
+
+
+@pytest.mark.parametrize(
+    "turns",
+    [
+        (LIST, "add 20 cm to the first step"),
+        (LIST, "again, but sideways"),
+        (LIST, "now the same but opposite"),
+        ("前进一米，左转九十度，后退半米", "最后一步反过来"),
+        ("左转九十度 前进一米 右转九十度 前进一米", "把前两步对调"),
+        ("左转三十度，前进半米", "倒着来一遍"),
+        ("画圆 半径五十公分 往右", "换个方向再来一个小一点的"),
+    ],
+)
+def test_what_may_change_a_motion_is_not_passed_over(turns: tuple[str, ...]) -> None:
+    assert done(*turns) == "unclear"
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        (("when I say hop go forward 10 cm", "hop slowly"), "drive 0.1 m at 0.15 m/s"),
+        (("when I say hop go forward 10 cm", "hop twice as far"), "drive 0.2 m"),
+        (("when I say hop go forward 10 cm", "hop backwards"), "drive 0.1 m back"),
+        (("when I say boo go back 10 cm", "boo now means back 20 cm", "boo"), "drive 0.2 m back"),
+        (("hop is forward 10 cm", "hop"), "drive 0.1 m"),
+        (("remember this spot as A", "half a metre forward", "go to A"), 'go to 0 0 named "a"'),
+    ],
+)
+def test_a_taught_word_is_done_as_it_is_said(turns: tuple[str, ...], plan: str) -> None:
+    assert done(*turns) == plan
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        (("turn right 45", "turn 30", "the same way"), "turn right 30 deg"),
+        (("turn right 45", "turn 20", "the other way"), "turn left 20 deg"),
+        (("go forward 1 m", "and now back"), "drive 1 m back"),
+        (("draw a circle with a radius of 50 cm", "to the right"), "arc right 360 deg radius 0.5 m"),
+        (("go forward one metre but stop halfway",), "drive 0.5 m"),
+        (("往前走一米，走到一半停下来",), "drive 0.5 m"),
+        (("slide left 1 m", "no, I meant right", "no wait, I meant left but 50 cm"), "drive 1.5 m left"),
+        (("往前开一米", "不是一米，是一米二"), "drive 0.2 m"),
+        (("fahr 1 m vor", "nicht 1 m, sondern 1,2 m"), "drive 0.2 m"),
+        (("slide right 50 cm", "slide right 0.25", "-0.25"), "unclear"),
+    ],
+)
+def test_an_answer_or_a_correction_is_read_beside_what_it_is_about(turns: tuple[str, ...], plan: str) -> None:
+    assert done(*turns) == plan

@@ -179,3 +179,18 @@ def test_an_order_that_looks_like_it_is_done(text: str, x_m: float, turned_deg: 
 def test_a_name_that_the_robot_was_given_calls_it() -> None:
     talk = conversation("Rusty, go back", "yes")
     assert talk.say("Rusty, turn left").plan is not None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "go left or right, whichever, 30 cm", "往左还是往右都行，走半米", 
+        "fahr nach links oder nach rechts, egal, 30 cm",
+        "ok, right, thanks a lot", "drive a circle without turning", "drive in a circle until I say stop",
+        "slide right 1 m, then left", "我说左你就往左挪三十厘米", "Fahr -30 cm",
+        "the robot can drive a square. Robot, show us a square with 50 cm sides!",
+    ],
+)  # fmt: skip
+def test_a_choice_a_statement_or_what_has_no_end_is_not_driven(text: str) -> None:
+    meant = Conversation().say(text)
+    assert meant.plan is None, meant.reply

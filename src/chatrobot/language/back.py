@@ -41,6 +41,8 @@ def driven_back(whole: Frame, context: Context) -> list[Step] | None:
     bare = whole.direction == "back" and not (
         whole.q or whole.flags or whole.pace or whole.rot or whole.shape
     )
+    if context.dialogue.usual.distance_m is not None:
+        return None  # a person set how far that is
     if not bare or whole.verb not in ("", *GO) or not isinstance(step, Drive) or step.until is not None:
         return None
     return inverse([step]) if step.direction_rad == 0.0 and step.distance_m is not None else None
