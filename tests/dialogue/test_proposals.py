@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,7 @@ from chatrobot.cli.console import lines
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.narrator import Narrator
 from chatrobot.core.event import Proposal
-from chatrobot.core.events import Interpreted, Rehearsed, Result, event_from_json
+from chatrobot.core.events import Interpreted, Rehearsed, Result, Telemetry, event_from_json
 from chatrobot.dialogue import question
 from chatrobot.dialogue.options import Options
 
@@ -326,3 +327,16 @@ def test_the_side_of_a_shape_that_was_offered_turns_all_of_it() -> None:
     result = talk.session.do("to the right")
     assert result.proposal is not None
     assert result.proposal.plan_text == "\n".join(["drive 0.6 m", "turn right 90 deg"] * 4)
+
+
+def test_a_yes_counts_though_the_question_came_before_the_first_odometry(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    talk = asked()
+    understanding, offer = talk.session.understanding, talk.results()[1]
+    here = understanding.pose
+    monkeypatch.setattr(type(understanding), "known_pose", None)
+    talk.session._proposals.hear(replace(offer, pose=here._replace(x_m=5.5)))
+    monkeypatch.setattr(type(understanding), "known_pose", here)
+    talk.session._proposals.hear(next(event for event in talk.events if isinstance(event, Telemetry)))
+    assert talk.session.do("yes").outcome == "completed"

@@ -137,7 +137,7 @@ def test_without_the_vendor_s_bring_up_it_is_said_how_to_get_it(workspace: Works
         launch = rig.start("ros2", "launch", "chatrobot", "wheeltec.launch.py")
         launch.wait_for_line("turn_on_wheeltec_robot is not here")
         launch.wait_for_line("robot.launch.py robot:=wheeltec_mini_mec on_robot:=true")
-        launch.end()
+        assert launch.process.wait(PATIENCE_S) == 1  # by itself; a Ctrl-C just then may hang `ros2 launch`
 
 
 def test_the_vendor_s_bring_up_is_included(workspace: Workspace, tmp_path: Path) -> None:

@@ -53,6 +53,20 @@ def test_launched_with_our_nodes_it_drives_a_square_that_closes(rig: Rig) -> Non
     assert off_rad < math.radians(3.0)
 
 
+def test_launched_with_our_nodes_it_goes_sideways(rig: Rig) -> None:
+    poses, replies = rig.hear("turtle1/pose", Odometry), rig.hear("chatrobot/reply", Text)
+    rig.start("ros2", "launch", "chatrobot", "turtlesim.launch.py").wait_for_line("control drives turtlesim")
+    start = poses.wait_for(lambda _: True)[1]
+    assert rig.ear.wait_for_listener("user_input", Text, 20.0, count=2)
+    time.sleep(0.5)
+    said_s = time.monotonic()
+    rig.ear.publish("user_input", Text("slide left 1 m"))
+    replies.wait_for(lambda reply: reply.data.startswith(("Done", "Not", "Stopped", "I stopped")), said_s)
+    final = resting_pose(poses, time.monotonic())
+    assert final.y_m - start.y_m == pytest.approx(1.0, abs=0.1)
+    assert final.x_m - start.x_m == pytest.approx(0.0, abs=0.1)
+
+
 def test_it_does_not_go_on_for_its_second_after_a_stop(rig: Rig) -> None:
     poses = rig.hear("turtle1/pose", Odometry)
     rig.start("ros2", "launch", "chatrobot", "turtlesim.launch.py").wait_for_line("control drives turtlesim")

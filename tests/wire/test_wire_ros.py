@@ -184,7 +184,10 @@ def test_closing_twice_and_after_its_context_is_gone_breaks_nothing(connect: Cal
     assert wire.node.is_closed
 
 
-def test_a_type_that_is_not_installed_says_how_to_get_it(connect: Callable[..., Any]) -> None:
+def test_a_type_that_is_not_installed_says_how_to_get_it(
+    connect: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "turtlesim.msg", None)  # it is there where ROS is
     with pytest.raises(UsageError, match="turtlesim"):
         connect(wiring=Wiring(odom_type="turtlesim/Pose")).publish("odom", STANDING)
 

@@ -15,7 +15,12 @@ def generate_launch_description():
     nodes = PathJoinSubstitution([FindPackageShare("chatrobot"), "launch", "robot.launch.py"])
     return LaunchDescription(
         [
-            Node(package="turtlesim", executable="turtlesim_node", output="screen"),
+            Node(  # from Iron on it goes sideways only when told so
+                package="turtlesim",
+                executable="turtlesim_node",
+                parameters=[{"holonomic": True}],
+                output="screen",
+            ),
             IncludeLaunchDescription(
                 PythonLaunchDescriptionSource(nodes),
                 launch_arguments={"robot": "turtlesim", "on_robot": "true"}.items(),
