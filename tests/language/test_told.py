@@ -184,7 +184,7 @@ def test_a_name_that_the_robot_was_given_calls_it() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "go left or right, whichever, 30 cm", "往左还是往右都行，走半米", 
+        "go left or right, whichever, 30 cm", "往左还是往右都行，走半米",
         "fahr nach links oder nach rechts, egal, 30 cm",
         "ok, right, thanks a lot", "drive a circle without turning", "drive in a circle until I say stop",
         "slide right 1 m, then left", "我说左你就往左挪三十厘米", "Fahr -30 cm",

@@ -144,7 +144,7 @@ def _ros(args: argparse.Namespace) -> Check:
     try:
         from rclpy.utilities import get_rmw_implementation_identifier
 
-        works = f"{distribution} with {get_rmw_implementation_identifier()}"
+        works = f"{distribution} with {get_rmw_implementation_identifier()}".lstrip()
         found = _found("ros:", args, is_near=ros_reaches_this_machine_alone(os.environ))
     except (ChatRobotError, ImportError, RuntimeError) as error:
         return Check("ROS 2", "later", f"{distribution} does not work with this Python: {error}")
