@@ -211,9 +211,10 @@ def _is_about(frame: Frame, value: float, state: State) -> bool:
 
 
 def _goes_on_aside(frame: Frame, state: State) -> bool:
-    """`30 left`, not `left 30`, after a slide: as likely a distance as a turn."""
+    """`30 left`, or in another turn `now right, but 60`, after a slide: as likely a distance as a turn."""
     slid = state.last == "drive" and state.direction in SIDES
-    return slid and not frame.verb and frame.texts[0] == frame.q["number"].text
+    goes_on = frame.texts[0] == frame.q["number"].text or frame.joined == "start"
+    return slid and not frame.verb and goes_on
 
 
 def _goes_on_in_degrees(frame: Frame, value: float, state: State) -> bool:
