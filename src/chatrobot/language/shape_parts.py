@@ -21,6 +21,7 @@ from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 Read = Callable[[str], list[Step]]
 _FEWEST_SIDES = 3
+_MARKS = " ,.;:!?，。！"
 
 
 def part_of_shape(plain: str, language: str, dialogue: Dialogue, read: Read) -> list[Step] | None:
@@ -35,8 +36,20 @@ def part_of_shape(plain: str, language: str, dialogue: Dialogue, read: Read) -> 
     cut = _cut(plain, language)
     if cut is not None:
         whole, count = cut
-        return _first_sides(read(whole), count, plain)
+        return _first_sides(read(whole) if whole.strip(_MARKS) else _before(dialogue), count, plain)
     return _next_sides(plain, language, dialogue, read) or _next_slice(plain, language, dialogue)
+
+
+def _before(dialogue: Dialogue) -> list[Step]:
+    """The steps of the motion before.
+
+    Raises:
+        Unclear: there was none.
+    """
+    last = dialogue.last_motion
+    if last is None or last.plan is None:
+        raise Unclear("nothing_before")
+    return list(last.plan.steps)
 
 
 def asks_for_rest(text: str, language: str) -> bool:
