@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, Started, Telemetry
-from chatrobot.core.geometry import Pose
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance
 from chatrobot.language.consent import read_consent
@@ -66,14 +65,7 @@ class _Offered(NamedTuple):
     turn: int
     proposal: Proposal
     approval: Approval
-    is_placed: bool
-    """Whether the robot had said where it is; until then nobody can see that it was moved."""
-
-    def placed(self, pose: Pose | None) -> _Offered:
-        """The same from where the robot says that it stands, if it had not said so before."""
-        if self.is_placed or pose is None:
-            return self
-        return self._replace(approval=replace(self.approval, start=pose), is_placed=True)
+    is_placed: bool  # whether the robot had said where it is; until then nobody can see that it was moved
 
 
 class Proposals:
@@ -96,10 +88,12 @@ class Proposals:
         """Keep the plan that a result offers; drop it when something moves."""
         if isinstance(event, Result) and event.proposal is not None:
             approval = Approval(time.monotonic(), event.pose)
-            is_placed = self._understanding.known_pose is not None
-            self._offered = _Offered(event.turn, event.proposal, approval, is_placed)
-        elif isinstance(event, Telemetry) and self._offered is not None:
-            self._offered = self._offered.placed(self._understanding.known_pose)
+            known = self._understanding.known_pose
+            self._offered = _Offered(event.turn, event.proposal, approval, known is not None)
+        elif isinstance(event, Telemetry) and self._offered is not None and not self._offered.is_placed:
+            if (here := self._understanding.known_pose) is not None:
+                approval = replace(self._offered.approval, start=here)
+                self._offered = self._offered._replace(approval=approval, is_placed=True)
         elif isinstance(event, Started):
             self._offered = None
 

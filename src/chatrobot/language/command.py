@@ -220,7 +220,9 @@ def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation
     if refusal is None or (asks and questions.topic_of(plain, language) == "contact"):
         return _question(plain, atoms, ability, reading) if asks else None
     measured = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
-    if ability and plain.endswith("?") and not measured:  # else it is a request, refused for something beside it
+    if (
+        ability and plain.endswith("?") and not measured
+    ):  # else it is a request, refused for something beside it
         return Interpretation("answered", say(language, "answer_cannot"), language)
     raise Unclear(f"refuse_{refusal.value}", refusal.text, refused=True)
 
