@@ -340,3 +340,14 @@ def test_a_yes_counts_though_the_question_came_before_the_first_odometry(
     monkeypatch.setattr(type(understanding), "known_pose", here)
     talk.session._proposals.hear(next(event for event in talk.events if isinstance(event, Telemetry)))
     assert talk.session.do("yes").outcome == "completed"
+
+
+@pytest.mark.parametrize("between", ["slower", "go to the gardn", "fly to the moon"])
+def test_a_yes_is_none_to_a_plan_that_was_asked_about_before_the_last_question(between: str) -> None:
+    talk = Talk(world="home", options=Options(approve=True))
+    turn = talk.session.say("drive forward 50 cm")
+    talk.pump_until(lambda: any(isinstance(e, Rehearsed) and e.needs_approval for e in talk.events))
+    talk.session.do(between)
+    assert talk.session.see_through(turn).outcome == "refused"
+    talk.session.approve(turn, True)
+    assert talk.results()[turn].path_m == 0.0

@@ -73,10 +73,17 @@ class Proposals:
 
     Args:
         is_void_turn: whether a stop came after that turn was said.
+        approve: answers a rehearsed plan that waits for a yes, by its turn.
     """
 
-    def __init__(self, understanding: Understanding, is_void_turn: Callable[[int], bool]) -> None:
-        self._understanding = understanding
+    def __init__(
+        self,
+        understanding: Understanding,
+        is_void_turn: Callable[[int], bool],
+        approve: Callable[[int, bool], None],
+    ) -> None:
+        self._understanding, self._approve = understanding, approve
+        self._rehearsed = Question()
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
 
@@ -85,7 +92,15 @@ class Proposals:
         return self._offered is None and read_consent(text) is False
 
     def hear(self, event: Event) -> None:
-        """Keep the plan that a result offers; drop it when something moves."""
+        """Keep the plan that a result offers; drop it when something moves.
+
+        What a later text asks back about is what a yes then answers, and no rehearsed plan that waits for one.
+        """
+        waiting = self._rehearsed.turn
+        asks = isinstance(event, Result) and event.outcome in ("unclear", "refused")
+        if asks and waiting is not None and event.turn > waiting:
+            self._approve(waiting, False)
+        self._rehearsed.hear(event)
         if isinstance(event, Result) and event.proposal is not None:
             approval = Approval(time.monotonic(), event.pose)
             known = self._understanding.known_pose

@@ -68,7 +68,7 @@ class Session:
         self._resuming = Resuming(understanding)
         self._goals = GoalClient(link, options, self._resuming)
         self._utterances = UtteranceQueue()
-        self._proposals = Proposals(understanding, self._utterances.is_void_turn)
+        self._proposals = Proposals(understanding, self._utterances.is_void_turn, self.approve)
         self._requests = RequestLog(understanding, self._emit)
         self._llm = ModelRequests(
             model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,

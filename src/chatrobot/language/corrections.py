@@ -14,6 +14,7 @@ from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.numbers import FAR_M, is_chinese
 from chatrobot.language.tokens import SILENT, Atom, joined, quantity
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import lasts
 
 _NO = frozenset({"no", "nope", "nah", "不", "wait", "sorry", "oops", "whoops", "等等", "no no", "rather"})
 _SLIPS = _NO | {"actually", "well actually", "damn", "dang", "argh", "pardon", "excuse me", "apologies", "my apologies",
@@ -311,7 +312,8 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
         i = end
     ordered = ("dir", "rot", "shape") if denied and not any(a.kind in _TOLD for a in out) else _ORDERED
     if len(out) < len(atoms) and not any(a.kind in ordered for a in out):
-        raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
+        said = " ".join(a.text for a in atoms)
+        raise Unclear("no_lasting_rule" if lasts(said) else "only_forbidden", said)
     sided = any(a.kind in ("dir", "rot") and a.value in _OTHER_ROT for a in out)
     out = out if sided else [*out, *sides[:1]]  # `spin once, not clockwise`
     if ahead and not any(a.kind in ("dir", "rot", "shape", "place") for a in out):

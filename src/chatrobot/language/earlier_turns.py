@@ -29,7 +29,7 @@ _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
 """Flags of what points at the motion before or is a motion itself, and answers no question."""
 
 _UNANSWERED = frozenset(
-    {"only_forbidden", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
+    {"only_forbidden", "no_lasting_rule", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
 )
 """What was said of an order that no word of an answer could complete."""
 _TELLING = frozenset({"q", "num", "dir", "rot", "pace"})

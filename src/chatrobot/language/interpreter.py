@@ -235,7 +235,9 @@ class OfflineInterpreter:
             if asked:
                 with contextlib.suppress(Unclear):
                     return self._interpreted(asked, language, context)
-            asks = problem.code == "only_forbidden" and any(read.clause.asks for read in reads)
+            asks = problem.code in ("only_forbidden", "no_lasting_rule") and any(
+                read.clause.asks for read in reads
+            )
             if (asks or problem.code in _OF_AN_ORDER) and order_log_odds(reads) < MAYBE_ORDER:
                 raise Unclear("nothing_to_do") from None
             raise

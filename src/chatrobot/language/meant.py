@@ -50,12 +50,26 @@ def instead(
         _point_back(frames[0], done)
     meant = read(frames)
     if len(done) > 1 and len(meant) == 1 and isinstance(meant[0], (Drive, Turn)):
+        instead_of_turn = (
+            _last_turn_instead(meant[0], done, frames[0]) if last.outcome == "completed" else None
+        )
+        if instead_of_turn is not None:
+            return instead_of_turn
         raise Unclear("unclear_motion", frames[0].text)  # one of them was wrong: which?
     if meant == done:
         raise Unclear("unclear_motion", frames[0].text)  # `no, the other left`
     turned = all(isinstance(step, Turn) for step in done)
     absolute = isinstance(meant[0], Go) or (isinstance(meant[0], Face) and turned)
     return meant if absolute else _net(back, meant)
+
+
+def _last_turn_instead(meant: Step, done: Sequence[Step], frame: Frame) -> list[Step] | None:
+    """`I meant right`, after `forward 1 m, then turn left`: the one turn that was made, the last of what was done."""
+    last, turns = done[-1], [step for step in done if isinstance(step, Turn)]
+    if not isinstance(meant, Turn) or not isinstance(last, Turn) or len(turns) > 1 or not last.angle_rad:
+        return None
+    new = meant if frame.has_extent else replace(last, left=meant.left)
+    return _net([replace(last, left=not last.left)], [new]) if new != last else None
 
 
 def _corrected_turns(context: Context) -> int:

@@ -35,7 +35,7 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     said = set(whole.q)
     if said == {"times"} and not whole.moves:
         return _rounds_missing(whole, steps, context)
-    whole = _with_unit(whole, last, step)
+    whole = _with_unit(_half_of(whole, step), last, step)
     if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
@@ -103,6 +103,19 @@ def _missing(whole: Frame, told: float, done: float) -> float:
     if "again" in whole.flags:
         raise Unclear("contradiction", whole.text)
     return told - done
+
+
+def _half_of(whole: Frame, step: Step) -> Frame:
+    """`No, just half`: of what was ordered, and not half a metre."""
+    number = whole.q.get("number")
+    amount = step.distance_m if isinstance(step, Drive) else step.angle_rad if isinstance(step, Turn) else None
+    if number is None or number.number != 0.5 or any(map(str.isdecimal, number.text)) or not amount:
+        return whole
+    whole = whole.copy()
+    del whole.q["number"]
+    name = "length" if isinstance(step, Drive) else "angle"
+    whole.q[name] = quantity(name, amount / 2, number.text)
+    return whole
 
 
 def _with_unit(whole: Frame, last: TurnRecord, step: Step) -> Frame:

@@ -86,6 +86,19 @@ def _unfinished() -> frozenset[str]:
     return frozenset(word for table in tables for word in table.get("unfinished", ()))
 
 
+@cache
+def _lasting() -> tuple[str, ...]:
+    tables = [load_table(language, "asides").get("clues", {}) for language in LANGUAGES]
+    return tuple(word for table in tables for word in table.get("lasting", ()))
+
+
+def lasts(said: str) -> bool:
+    """Whether what is forbidden is meant to be so for good: `never drive backward`."""
+    return any(
+        f" {word} " in f" {said} " if word.isascii() else word in said.replace(" ", "") for word in _lasting()
+    )
+
+
 def is_choice(text: str, language: str) -> bool:
     """Whether `text` leaves a choice open: `left or right?`."""
     pattern = _clue(language, "choice")
