@@ -351,3 +351,13 @@ def test_a_yes_is_none_to_a_plan_that_was_asked_about_before_the_last_question(b
     assert talk.session.see_through(turn).outcome == "refused"
     talk.session.approve(turn, True)
     assert talk.results()[turn].path_m == 0.0
+
+
+@pytest.mark.parametrize(("answer", "path_m"), [("yes", 0.5), ("okay, go", 0.5), ("ja", 0.5), ("好的", 0.5)])
+def test_a_typed_yes_or_go_answers_the_plan_that_waits(answer: str, path_m: float) -> None:
+    talk = Talk(world="home", options=Options(approve=True))
+    turn = talk.session.say("drive forward 50 cm")
+    talk.pump_until(lambda: any(isinstance(e, Rehearsed) and e.needs_approval for e in talk.events))
+    assert talk.session.do(answer).outcome == "answered"
+    assert talk.session.see_through(turn).path_m == pytest.approx(path_m, abs=0.02)
+    assert len([event for event in talk.events if isinstance(event, Rehearsed)]) == 1

@@ -31,6 +31,19 @@ pytestmark = pytest.mark.realtime
 # --- people ---
 
 
+def test_a_stop_that_a_watcher_types_stops_the_robot(page: Page, rig: WebRig, browser: Browser) -> None:
+    watcher = open_page(browser, rig.origin)
+    watcher.locator("#say").fill("forward 1 m")
+    watcher.locator("#say").press("Enter")
+    expect(watcher.locator("#notice-banner")).not_to_be_empty()
+    expect(watcher.locator("#say")).to_have_value("forward 1 m")
+    watcher.locator("#say").fill("stop, please")
+    watcher.locator("#say").press("Enter")
+    wait_until(lambda: any(what[0] == "stop" for what in rig.session.log))
+    assert not any(what[0] == "say" for what in rig.session.log)
+    watcher.context.close()
+
+
 def test_two_tabs_one_steers_and_taking_over_is_shown_to_both(
     page: Page, rig: WebRig, browser: Browser
 ) -> None:

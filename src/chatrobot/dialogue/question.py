@@ -112,8 +112,24 @@ class Proposals:
         elif isinstance(event, Started):
             self._offered = None
 
+    def awaits(self, text: str) -> bool:
+        """Return whether `text` answers a rehearsed plan that waits for a yes, and no later question."""
+        return self._offered is None and self._rehearsed.turn is not None and read_consent(text) is not None
+
+    def _approved(self, text: str) -> Interpretation:
+        """Answer the plan that waits: a `go` is no order to drive then."""
+        yes, waiting, language = (
+            read_consent(text) is True,
+            self._rehearsed.turn,
+            self._understanding.language,
+        )
+        self._approve(waiting or 0, yes)
+        return Interpretation("answered", say(language, "approved" if yes else "offer_declined"), language)
+
     def answered(self, utterance: Utterance) -> Interpretation | None:
         """Return what `utterance` means as the answer to the offer; None where it is none. The offer is then over."""
+        if utterance.kind == "text" and self.awaits(utterance.text):
+            return self._approved(utterance.text)
         offered, self._offered = self._offered, None
         if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
             return None

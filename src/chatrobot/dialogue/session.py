@@ -76,8 +76,8 @@ class Session:
         )  # fmt: skip
         self.authoring = authoring
         early = EarlyAnswers(understanding, self._llm, self._requests, authoring)
-        waiting, log = self._utterances, self._requests
-        self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early)
+        waiting, log, awaits = self._utterances, self._requests, self._proposals.awaits
+        self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early, awaits)
         self._programs: ProgramRequests | None = None
         self._steered_at_s = -math.inf
         if authoring is not None:

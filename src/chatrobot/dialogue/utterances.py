@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
@@ -183,6 +183,8 @@ class NextUtterance:
     _understanding: Understanding
     _resuming: Resuming
     _early: EarlyAnswers
+    _awaits: Callable[[str], bool]
+    """Whether a text answers a plan that waits for a yes."""
 
     def find(self, options: Options, waiting_turn: int | None) -> Utterance | None:
         """Return the one to take now: the first, unless it has to wait.
@@ -197,6 +199,8 @@ class NextUtterance:
                 return None if is_about_a_pause and self.is_being_paused else utterance
             if self._utterances.is_held(utterance):
                 continue
+            if utterance.kind == "text" and self._awaits(utterance.text):
+                return utterance
             if self.is_being_paused or self._llm.is_writing:
                 return None
             replaces = self._resuming.paused is not None or options.while_moving == "replace"

@@ -108,7 +108,9 @@ def _missing(whole: Frame, told: float, done: float) -> float:
 def _half_of(whole: Frame, step: Step) -> Frame:
     """`No, just half`: of what was ordered, and not half a metre."""
     number = whole.q.get("number")
-    amount = step.distance_m if isinstance(step, Drive) else step.angle_rad if isinstance(step, Turn) else None
+    amount = (
+        step.distance_m if isinstance(step, Drive) else step.angle_rad if isinstance(step, Turn) else None
+    )
     if number is None or number.number != 0.5 or any(map(str.isdecimal, number.text)) or not amount:
         return whole
     whole = whole.copy()

@@ -14,7 +14,7 @@ from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode, language_of_tags
 from chatrobot.link.envelope import OBSTACLE_RADIUS_M
-from chatrobot.reflex import is_release
+from chatrobot.reflex import is_release, leads_with_stop
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
 from chatrobot.web.outbox import Face, Message, Outbox
@@ -176,6 +176,8 @@ def serve_room(websocket: WebSocket, room: Room, page: Page) -> Conversation:
             room.steering.beat(page)
         is_release_typed = word == "say" and page.pass_.may_steer and is_release(message["text"])
         why = "" if is_release_typed else why_not(room, page, word)  # its button asks for no steering either
+        if why and word == "say" and leads_with_stop(message["text"]):
+            word, why = "stop", ""  # from whoever watches, too, as by the button
         if why:
             page.put(refused(why, word))
             return

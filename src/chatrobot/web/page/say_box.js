@@ -18,10 +18,14 @@ export function fillBox(text) {
   at = kept.length;
 }
 
-/** Send what is in the box; it stays there where the connection is gone. */
+/** Send what is in the box. It stays there where the connection is gone, and where another page steers: a stop counts. */
 export function sendBox() {
   const text = box.value.trim();
   if (!text || !send({ do: "say", text })) return;
+  if (!state.steers) {
+    box.select();
+    return;
+  }
   keep(text);
   box.value = "";
   byId("examples").hidden = true;
@@ -64,6 +68,11 @@ export function startSayBox() {
     sendBox();
   });
   box.addEventListener("keydown", (event) => {
+    if (event.key === "Enter" && !event.isComposing && !state.steers) {
+      event.preventDefault(); // the disabled button would keep it from being sent
+      sendBox();
+      return;
+    }
     if (event.isComposing || (event.key !== "ArrowUp" && event.key !== "ArrowDown") || !kept.length) return;
     event.preventDefault();
     step(event.key === "ArrowUp" ? -1 : 1);
