@@ -32,6 +32,7 @@ pytestmark = pytest.mark.realtime
 
 
 def test_a_stop_that_a_watcher_types_stops_the_robot(page: Page, rig: WebRig, browser: Browser) -> None:
+    expect(page.locator("#steering-state")).to_have_text("You steer")
     watcher = open_page(browser, rig.origin)
     watcher.locator("#say").fill("forward 1 m")
     watcher.locator("#say").press("Enter")

@@ -89,3 +89,30 @@ def test_a_tap_on_the_floor_is_rehearsed_and_can_be_cancelled(page: Page) -> Non
     cancel.click()
     expect(page.locator("#turns .robot").last).to_have_attribute("data-outcome", "refused")
     expect(page.locator("#robot-state")).to_have_text("Standing")
+
+
+def test_a_typed_yes_does_the_plan_that_waits(page: Page) -> None:
+    say(page, "turn left 20 degrees")
+    expect(page.get_by_role("log", name="What was said").get_by_role("button", name="Do it")).to_be_visible()
+    say(page, "okay, go")
+    wait_until(lambda: "20.0°" in page.locator("#turns").inner_text())
+    expect(page.locator("#robot-state")).to_have_text("Standing")
+
+
+def test_a_question_leaves_a_paused_plan_paused(page: Page) -> None:
+    say(page, "turn left three times")
+    page.get_by_role("log", name="What was said").get_by_role("button", name="Do it").click()
+    expect(page.locator("#robot-state")).to_have_text("Moving")
+    page.get_by_role("button", name="Pause").click()
+    expect(page.locator("#robot-state")).to_have_text("Paused")
+    say(page, "where are you?")
+    expect(page.locator("#turns .robot").last).to_have_attribute("data-outcome", "answered")
+    expect(page.locator("#robot-state")).to_have_text("Paused")
+    expect(page.get_by_role("button", name="Go on")).to_be_visible()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    expect(page.get_by_role("button", name="Go on")).to_be_hidden()
+
+
+def test_a_place_that_is_remembered_is_in_the_list_at_once(page: Page) -> None:
+    say(page, "remember this place as corner")
+    expect(page.locator("#places")).to_contain_text("corner")

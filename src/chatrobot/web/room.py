@@ -86,6 +86,8 @@ class Room:
                 self._turns.pop(event.turn, None)
             elif isinstance(event, Result):
                 self._turns.pop(event.turn, None)
+                if event.outcome == "answered":  # it may have remembered a place, or forgotten one
+                    self._tell_places()
                 if event.reason is not None and event.reason.code == "emergency_stop":
                     self._set_alarm(True)
             elif isinstance(event, Remembered):

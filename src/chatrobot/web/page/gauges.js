@@ -14,7 +14,7 @@ const limited = byId("limited");
 let telemetry = null;
 let limitedTimer = 0;
 let isLatched = false;
-let isPaused = false;
+let pausedTurn = null;
 
 function show(id, value, most, text) {
   const gauge = byId(id);
@@ -63,11 +63,11 @@ function drawState() {
   if (!state.isOpen) key = "state_unknown";
   else if (isLatched) key = "state_emergency";
   else if (isMoving()) key = "state_moving";
-  else if (isPaused) key = "state_paused";
+  else if (pausedTurn !== null) key = "state_paused";
   chip.dataset.state = key;
   setText(chip, t(key));
-  byId("resume").hidden = !isPaused;
-  byId("pause").hidden = isPaused;
+  byId("resume").hidden = pausedTurn === null;
+  byId("pause").hidden = pausedTurn !== null;
   byId("release").hidden = !isLatched || !state.may.has("release");
 }
 
@@ -83,9 +83,9 @@ function hear({ event, text }) {
   if (event.event === "telemetry") telemetry = event;
   else if (event.event === "limited") {
     if (!state.isReplaying) limit([].concat(text || event.rule).join(" "));
-  } else if (event.event === "paused") isPaused = true;
+  } else if (event.event === "paused") pausedTurn = event.turn;
   else if (["started", "result", "finished"].includes(event.event)) {
-    isPaused = false;
+    if (event.event === "started" || event.turn === pausedTurn) pausedTurn = null; // a question leaves it paused
     limit("");
   } else return;
   if (event.event === "telemetry") draw();
@@ -95,7 +95,7 @@ function hear({ event, text }) {
 export function startGauges() {
   on("open", () => {
     telemetry = null;
-    isPaused = false;
+    pausedTurn = null;
     isLatched = Boolean(state.hello.emergency);
     draw();
     drawState();
