@@ -213,7 +213,8 @@ def _is_about(frame: Frame, value: float, state: State) -> bool:
 def _goes_on_aside(frame: Frame, state: State) -> bool:
     """`30 left`, or in another turn `now right, but 60`, after a slide: as likely a distance as a turn."""
     slid = state.last == "drive" and state.direction in SIDES
-    goes_on = frame.texts[0] == frame.q["number"].text or frame.joined == "start"
+    number = frame.q["number"]
+    goes_on = number.text == frame.texts[0] or (frame.joined == "start" and number.number % 45 != 0)
     return slid and not frame.verb and goes_on
 
 

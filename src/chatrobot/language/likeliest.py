@@ -28,15 +28,13 @@ from chatrobot.language.beside import (
     odds_beside_asides,
     refers,
 )
-from chatrobot.language.frames import GO, TURN
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.left_out import Span, place_of, told_spans
-from chatrobot.language.lexicon import lexicon
 from chatrobot.language.numbers import FAR_M
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.pointing import may_change
+from chatrobot.language.pointing import NO_ORDER, leads_amount, may_change, may_order
 from chatrobot.language.set_off import odds_without, set_off
-from chatrobot.language.signs import Names, Sign, clauses_of
+from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.strange_words import is_bound, is_complete, strange_spans
 from chatrobot.language.typos import neighbours_of
 from chatrobot.language.unclear import Unclear
@@ -47,8 +45,6 @@ TALK, APART = 1.5, 3.0
 """A clause may be sure talk below these odds, and where the order's are higher by so much."""
 NO_MOTION = -4.0
 """A clause without any word of motion is sure talk below these odds, whatever its words are."""
-NO_ORDER = 3.5
-"""A clause without an amount may be left out of a proposal below these odds."""
 MOST_CLAUSES, MOST_PARTS, MOST_READS = 12, 4, 16
 """So many clauses are looked at one by one, so many parts are left out of what is proposed, and so many texts read."""
 SURE_TALK, SURE_CONDITION = -1.5, 1.0
@@ -101,7 +97,7 @@ def likeliest(
     told = [
         read
         for read in reads
-        if is_sure_aside(read.clause, odds) and not _may_order(read) and _is_no_part(read, reads, odds)
+        if is_sure_aside(read.clause, odds) and not may_order(read) and _is_no_part(read, reads, odds)
     ]
     talk = [*apart, *told, *([] if asks else talk_in(reads))]
     gone = [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]
@@ -314,22 +310,11 @@ def _is_clearly_told(plain: str, problem: Unclear, told: Sequence[Read], odds: M
     return bool(told) and all(odds[read.clause.start].odds >= SURELY_NOT_MEANT for read in refused)
 
 
-def _may_order(read: Read) -> bool:
-    """`drive to the kitchen`, where nobody knows a kitchen: it is asked about, however much it sounds like an aside."""
-    signs = [sign for sign in read.clause.signs if sign.label != "opening"]
-    says = [_verb(sign) for sign in signs]
-    least = ORDER if says[:1] and says[0] in GO else NO_ORDER
-    return any(verb in GO or verb in TURN for verb in says) and read.log_odds >= least
-
-
-def _verb(sign: Sign) -> str:
-    meaning = lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))
-    return meaning[0][1] if sign.label == "VERB" else ""
-
-
 def _is_no_part(read: Read, reads: Sequence[Read], odds: Mapping[int, Aside]) -> bool:
     """Whether it stands in a sentence of its own, or the rest says by itself what to do."""
     others = [other.clause for other in reads if other is not read]
+    if leads_amount(read, reads):
+        return False
     if odds[read.clause.start].apart or any(read.clause.is_covered_by(other) for other in others):
         return True
     return any(sign.moves and sign.label in _DOES for other in others for sign in other.signs)

@@ -47,7 +47,15 @@ def instead(
     back = taken_back(context, profile, _corrected_turns(context)).steps
     done = list(last.plan.steps)
     if len(frames) == 1 and not frames[0].has_extent and not frames[0].shape and not frames[0].place:
-        _point_back(frames[0], done)
+        if (
+            len(done) > 1
+            and isinstance(done[-1], Turn)
+            and frames[0].direction in SIDES
+            and not frames[0].verb
+        ):
+            frames[0].verb = "turn"  # `I meant right`
+        else:
+            _point_back(frames[0], done)
     meant = read(frames)
     if len(done) > 1 and len(meant) == 1 and isinstance(meant[0], (Drive, Turn)):
         instead_of_turn = (
