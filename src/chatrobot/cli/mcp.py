@@ -64,8 +64,7 @@ def _run_own(args: argparse.Namespace) -> int:
 
 def _check(args: argparse.Namespace) -> None:
     if importlib.util.find_spec("mcp") is None:
-        how = "make setup in a clone, pip install 'chatrobot[mcp]' elsewhere"
-        raise UsageError("the MCP server is not installed", allowed=how)
+        raise UsageError("the MCP server is not installed", allowed="pip install 'chatrobot[mcp]'")
     for given, flag in ((args.fast, "--fast"), (args.trace, "--trace"), (args.json, "--json")):
         if given:
             raise UsageError(
