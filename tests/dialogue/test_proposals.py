@@ -17,6 +17,7 @@ from chatrobot.core.event import Proposal
 from chatrobot.core.events import Interpreted, Rehearsed, Result, Telemetry, event_from_json
 from chatrobot.dialogue import question
 from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.utterances import Utterance
 
 ASKING = "go to the kichen"
 
@@ -361,3 +362,13 @@ def test_a_typed_yes_or_go_answers_the_plan_that_waits(answer: str, path_m: floa
     assert talk.session.do(answer).outcome == "answered"
     assert talk.session.see_through(turn).path_m == pytest.approx(path_m, abs=0.02)
     assert len([event for event in talk.events if isinstance(event, Rehearsed)]) == 1
+
+
+def test_a_yes_that_was_said_before_the_question_is_no_answer_to_it() -> None:
+    talk = Talk(world="home", options=Options(approve=True))
+    talk.session.say("drive forward 50 cm")
+    before_s = question.time.monotonic()
+    talk.pump_until(lambda: any(isinstance(e, Rehearsed) and e.needs_approval for e in talk.events))
+    awaits = talk.session._proposals.awaits
+    assert not awaits(Utterance(2, "yes", "text", before_s))
+    assert awaits(Utterance(2, "yes", "text", question.time.monotonic()))

@@ -194,3 +194,13 @@ def test_a_name_that_the_robot_was_given_calls_it() -> None:
 def test_a_choice_a_statement_or_what_has_no_end_is_not_driven(text: str) -> None:
     meant = Conversation().say(text)
     assert meant.plan is None, meant.reply
+
+
+@pytest.mark.parametrize(
+    "text", ["Rückwärts raus da, zweieinhalb Meter, dann umdrehn", "backward out the frobble, two metres"]
+)
+def test_the_way_that_leads_an_amount_is_not_passed_over(text: str) -> None:
+    meant = Conversation().say(text)
+    offered = meant.proposal.plan_text if meant.proposal is not None else ""
+    assert meant.plan is None
+    assert not offered or "back" in offered

@@ -83,7 +83,7 @@ class Proposals:
         approve: Callable[[int, bool], None],
     ) -> None:
         self._understanding, self._approve = understanding, approve
-        self._rehearsed = Question()
+        self._rehearsed, self._asked_at_s = Question(), 0.0
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
 
@@ -100,7 +100,8 @@ class Proposals:
         asks = isinstance(event, Result) and event.outcome in ("unclear", "refused")
         if asks and waiting is not None and event.turn > waiting:
             self._approve(waiting, False)
-        self._rehearsed.hear(event)
+        if self._rehearsed.hear(event):
+            self._asked_at_s = time.monotonic()
         if isinstance(event, Result) and event.proposal is not None:
             approval = Approval(time.monotonic(), event.pose)
             known = self._understanding.known_pose
@@ -112,24 +113,20 @@ class Proposals:
         elif isinstance(event, Started):
             self._offered = None
 
-    def awaits(self, text: str) -> bool:
-        """Return whether `text` answers a rehearsed plan that waits for a yes, and no later question."""
-        return self._offered is None and self._rehearsed.turn is not None and read_consent(text) is not None
-
-    def _approved(self, text: str) -> Interpretation:
-        """Answer the plan that waits: a `go` is no order to drive then."""
-        yes, waiting, language = (
-            read_consent(text) is True,
-            self._rehearsed.turn,
-            self._understanding.language,
-        )
-        self._approve(waiting or 0, yes)
-        return Interpretation("answered", say(language, "approved" if yes else "offer_declined"), language)
+    def awaits(self, utterance: Utterance) -> bool:
+        """Return whether it answers a rehearsed plan that waits for a yes, and was said after the question."""
+        is_asked = self._rehearsed.turn is not None and utterance.at_s >= self._asked_at_s
+        is_last = self._offered is None and utterance.kind == "text"
+        return is_asked and is_last and read_consent(utterance.text) is not None
 
     def answered(self, utterance: Utterance) -> Interpretation | None:
         """Return what `utterance` means as the answer to the offer; None where it is none. The offer is then over."""
-        if utterance.kind == "text" and self.awaits(utterance.text):
-            return self._approved(utterance.text)
+        language = self._understanding.language
+        if self.awaits(utterance):  # a `go` is no order to drive then
+            agrees = read_consent(utterance.text) is True
+            self._approve(self._rehearsed.turn or 0, agrees)
+            code = "approved" if agrees else "offer_declined"
+            return Interpretation("answered", say(language, code), language)
         offered, self._offered = self._offered, None
         if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
             return None
@@ -137,7 +134,6 @@ class Proposals:
         changed = self._understanding.amended(plan, utterance.text) if yes is None else plan
         if changed is None:
             return None
-        language = self._understanding.language
         if yes is False:
             return Interpretation("answered", say(language, "offer_declined"), language)
         lapse = offered.approval.lapsed(utterance.at_s, self._understanding.pose)

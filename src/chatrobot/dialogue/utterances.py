@@ -183,8 +183,8 @@ class NextUtterance:
     _understanding: Understanding
     _resuming: Resuming
     _early: EarlyAnswers
-    _awaits: Callable[[str], bool]
-    """Whether a text answers a plan that waits for a yes."""
+    _awaits: Callable[[Utterance], bool]
+    """Whether it answers a plan that waits for a yes."""
 
     def find(self, options: Options, waiting_turn: int | None) -> Utterance | None:
         """Return the one to take now: the first, unless it has to wait.
@@ -199,7 +199,7 @@ class NextUtterance:
                 return None if is_about_a_pause and self.is_being_paused else utterance
             if self._utterances.is_held(utterance):
                 continue
-            if utterance.kind == "text" and self._awaits(utterance.text):
+            if self._awaits(utterance):
                 return utterance
             if self.is_being_paused or self._llm.is_writing:
                 return None

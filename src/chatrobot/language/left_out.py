@@ -12,15 +12,19 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from chatrobot.language.acts import read_acts
+from chatrobot.language.acts import ORDER, Read, read_acts
 from chatrobot.language.beside import BEARS, MAYBE_ASIDE, NO_ASIDE, SURELY_NOT_MEANT, asides
 from chatrobot.language.data_files import relation_words
+from chatrobot.language.frames import GO, TURN
 from chatrobot.language.gloss import MARK
 from chatrobot.language.lexicon import UNIT, lexicon
 from chatrobot.language.set_off import has_amount
 from chatrobot.language.signs import BINDING, Clause, Names, Sign, clauses_of
 from chatrobot.language.typos import correct
 
+_LEADS = frozenset({"DIR", "ROT"})
+NO_ORDER = 3.5
+"""A clause without an amount may be left out of a proposal below these odds."""
 MARKS = " ,.;:!?…。—~\n"
 _IDLE = frozenset({"VERB", "PLACE", "COUNTER"})
 """Labels of words of motion that people say of other things, too; every other one is of the order."""
@@ -301,3 +305,24 @@ def _ways() -> tuple[str, ...]:
     known = (key[0] for key, meaning in lexicon().words.items() if len(key) == 1 and meaning[0][0] in _WAYS)
     latin = {word for word in known if word.isascii() and len(word) >= _LEAST_OF_WAY}
     return tuple(latin | relation_words("ways"))
+
+
+def leads_amount(read: Read, reads: Sequence[Read]) -> bool:
+    """`Backward out of there, two metres`: whether it says the way of the amount behind it, which names none itself."""
+    ways = _LEADS & {sign.label for sign in read.clause.signs}
+    after = reads[reads.index(read) + 1 :][:1]
+    said = {sign.label for other in after for sign in other.clause.signs}
+    return bool(ways) and "UNIT" in said and not said & (_LEADS | {"VERB", "SHAPE"})
+
+
+def may_order(read: Read) -> bool:
+    """`drive to the kitchen`, where nobody knows a kitchen: it is asked about, however much it sounds like an aside."""
+    signs = [sign for sign in read.clause.signs if sign.label != "opening"]
+    says = [_verb(sign) for sign in signs]
+    least = ORDER if says[:1] and says[0] in GO else NO_ORDER
+    return any(verb in GO or verb in TURN for verb in says) and read.log_odds >= least
+
+
+def _verb(sign: Sign) -> str:
+    meaning = lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))
+    return meaning[0][1] if sign.label == "VERB" else ""

@@ -29,10 +29,10 @@ from chatrobot.language.beside import (
     refers,
 )
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.left_out import Span, place_of, told_spans
+from chatrobot.language.left_out import NO_ORDER, Span, leads_amount, may_order, place_of, told_spans
 from chatrobot.language.numbers import FAR_M
 from chatrobot.language.phrases import describe_plan, say
-from chatrobot.language.pointing import NO_ORDER, leads_amount, may_change, may_order
+from chatrobot.language.pointing import may_change
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.strange_words import is_bound, is_complete, strange_spans

@@ -11,18 +11,12 @@ from collections.abc import Callable, Mapping, Sequence
 
 from chatrobot.language.acts import ORDER, Read, order_log_odds, without
 from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, Aside, asides, is_reported, refers
-from chatrobot.language.frames import GO, TURN
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.language.lexicon import lexicon
-from chatrobot.language.signs import Sign
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Go
 
 _HOLDING = frozenset({"condition", "correction", "contrast"})
 """Labels of words on which it may depend whether the order is meant."""
-NO_ORDER = 3.5
-"""A clause without an amount may be left out of a proposal below these odds."""
-_WAYS = frozenset({"DIR", "ROT"})
 LEAST = -3.0
 """A clause with lower odds, as a logarithm, is no talk beside a reference."""
 _LOOSE = frozenset({"VERB", "UNIT", "COUNTER"})
@@ -81,24 +75,3 @@ def may_change(read: Read, odds: Mapping[int, Aside]) -> bool:
     aside = odds.get(read.clause.start)
     points = any(sign.label in ("contrast", "FLAG") for sign in read.clause.signs)
     return points or aside is None or aside.odds < MAYBE_ASIDE
-
-
-def leads_amount(read: Read, reads: Sequence[Read]) -> bool:
-    """`Backward out of there, two metres`: whether it says the way of the amount behind it, which names none itself."""
-    ways = _WAYS & {sign.label for sign in read.clause.signs}
-    after = reads[reads.index(read) + 1 :][:1]
-    said = {sign.label for other in after for sign in other.clause.signs}
-    return bool(ways) and "UNIT" in said and not said & (_WAYS | {"VERB", "SHAPE"})
-
-
-def may_order(read: Read) -> bool:
-    """`drive to the kitchen`, where nobody knows a kitchen: it is asked about, however much it sounds like an aside."""
-    signs = [sign for sign in read.clause.signs if sign.label != "opening"]
-    says = [_verb(sign) for sign in signs]
-    least = ORDER if says[:1] and says[0] in GO else NO_ORDER
-    return any(verb in GO or verb in TURN for verb in says) and read.log_odds >= least
-
-
-def _verb(sign: Sign) -> str:
-    meaning = lexicon().words.get(tuple(sign.text.split("_")), (("", ""),))
-    return meaning[0][1] if sign.label == "VERB" else ""
