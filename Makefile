@@ -36,10 +36,9 @@ lint: setup
 # Where no process may keep its bytecode, each compiles all of ours anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-# Real processes in real time come after the rest, two at a time: each has several processes. Those that measure a promise
-# come by themselves, for they wait more than they work; what keeps the machine busy on purpose comes last, alone. What
-# fails is tried once more with nothing beside it: a busy machine may hold a process up once, but a promise that is broken
-# twice is broken.
+# Real processes in real time come after the rest, three at a time: they wait more than they work. Those that measure a
+# promise come by themselves, two at a time; what keeps the machine busy on purpose comes last, alone. What fails is tried
+# once more with nothing beside it: a busy machine may hold a process up once, but a promise that is broken twice is broken.
 AGAIN := --last-failed --last-failed-no-failures none
 # Looking through all other files costs each process five seconds; tests/conftest.py sees to it that none is missed.
 REALTIME = $(filter-out tests/ros/%,$(shell grep -rl --include='test_*.py' 'mark\.realtime' tests)) tests/ros
@@ -50,7 +49,7 @@ PLAIN := --tb=native
 TWICE = $(BIN)/pytest $(1) $(2) $(PLAIN) $(3) || $(BIN)/pytest $(1) $(AGAIN) $(PLAIN) $(3)
 test: lint
 	$(BIN)/pytest -m "not realtime" -n 3
-	$(call TWICE,-m "realtime and not alone",-n 2 --dist loadfile,$(REALTIME))
+	$(call TWICE,-m "realtime and not alone",-n 3 --dist loadfile,$(REALTIME))
 	$(call TWICE,-m alone,-n 2 --dist loadfile,$(filter-out $(BUSY),$(REALTIME)))
 	$(call TWICE,-m alone,,$(BUSY))
 

@@ -81,6 +81,10 @@ def talk_in(reads: Sequence[Read], *, doubtful: bool = False) -> list[Read]:
     """The clauses beside an order that are only talk; with `doubtful`, also those that are rather talk than orders."""
     talk = [read for read in reads if _is_talk(read, MAYBE_ORDER if doubtful else TALK_OF_MOTION)]
     talk += _statements(reads)
+    if not any(
+        map(_does, (read for read in reads if read not in talk))
+    ):  # `once more, only to the right this time`
+        talk = [read for read in talk if not _does(read)]
     return talk if len(talk) < len(reads) and order_log_odds(reads) >= ORDER else []
 
 
@@ -109,14 +113,17 @@ def _is_talk(read: Read, limit_of_motion: float) -> bool:
     return clause.talks and not clause.binds and read.log_odds < limit
 
 
+def _does(read: Read) -> bool:
+    return any(sign.label in _DOES for sign in read.clause.signs)
+
+
 def _statements(reads: Sequence[Read]) -> list[Read]:
     """`Look, the robot can drive a square.`: what stands alone in a sentence that rather tells, with an amount."""
     found, is_first = [], True
     for read in reads:
         clause = read.clause
         ends = clause.end != "" and is_strong(clause.end)
-        does = any(sign.label in _DOES for sign in clause.signs)
-        if is_first and ends and does and clause.tells and not clause.binds and read.log_odds < TALK:
+        if is_first and ends and _does(read) and clause.tells and not clause.binds and read.log_odds < TALK:
             found.append(read)
         is_first = ends or (is_first and not clause.moves)
     return found

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from chatrobot.language.frames import EXTENTS, GO, PLACE_HEADING, SIDES, STILL, TURN, Frame
 from chatrobot.language.joining import is_times_only
+from chatrobot.language.spelt_out import without_titles
 from chatrobot.language.unclear import Unclear
 
 _MANNER = frozenset({"speed", "rate", "percent", "fold"})
-
-_LETTERS = frozenset({"letter_l", "letter_u", "letter_z"})
 
 
 def arranged(frames: list[Frame]) -> list[Frame]:
     """The frames that are motions of their own, in order."""
     frames = _distributed(_without_calls(_shared(_with_place_headings(frames))))
-    frames = _without_announcements(_without_titles(_with_manners(frames)))
+    frames = _without_announcements(without_titles(_with_manners(frames)))
     return _shape_first(_in_said_units(frames))
 
 
@@ -123,30 +122,6 @@ def _hand_on(manner: Frame, frame: Frame) -> None:
         return
     frame.pace = manner.pace
     frame.q.update(manner.q)
-
-
-def _without_titles(frames: list[Frame]) -> list[Frame]:
-    """先转后走：…, 走L形：…: what stands before a colon and is spelt out after it."""
-    out: list[Frame] = []
-    for k, frame in enumerate(frames):
-        if not (_is_title(frame, frames, k) or _is_letter_spelt_out(frame, frames, k)):
-            out.append(frame)
-    return out
-
-
-def _is_title(frame: Frame, frames: list[Frame], k: int) -> bool:
-    before_colon = k + 1 < len(frames) and frames[k + 1].joined == "colon"
-    if not before_colon or frame.verb not in ("", "go", "turn", "make"):
-        return False
-    bare = not (frame.q or frame.roles or frame.direction or frame.rot or frame.shape or frame.place)
-    return bare and sum(1 for f in frames[k + 1 :] if f.has_extent) >= 2
-
-
-def _is_letter_spelt_out(frame: Frame, frames: list[Frame], k: int) -> bool:
-    if frame.shape not in _LETTERS or frame.q:
-        return False
-    rest = frames[k + 1 :]
-    return sum("length" in f.q for f in rest) >= 2 and any(f.turning or f.verb in TURN for f in rest)
 
 
 def _without_announcements(frames: list[Frame]) -> list[Frame]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from chatrobot.core.geometry import wrap_angle
@@ -11,6 +12,7 @@ from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.inverse import inverse, is_sideways
 from chatrobot.language.last_motion import steps_of
 from chatrobot.language.manner import Pace
+from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import FAR_RAD, NEAR_M
 from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
@@ -65,3 +67,25 @@ def only_slid(context: Context) -> bool:
         return False
     off_rad = wrap_angle(last.start_pose.yaw_rad - start.yaw_rad)
     return last.start_pose.distance_to(start) <= NEAR_M and abs(off_rad) <= FAR_RAD / 4
+
+
+def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`Half of the way home`: that part of the straight way to the start, which lies ahead or behind; else None.
+
+    Raises:
+        Unclear: it lies to a side, or the last motion did not begin at the start, and either may be meant.
+    """
+    part, dialogue = whole.q.get("number"), context.dialogue
+    if part is None or not 0.0 < part.number < 1.0 or "to_start" not in whole.flags or len(whole.q) > 1:
+        return None
+    pose, start, last = context.state.pose, dialogue.start_pose, dialogue.last_motion
+    way_m = pose.distance_to(start)
+    if last is not None and last.start_pose.distance_to(last.end_pose) > NEAR_M:
+        way_m = way_m if last.start_pose.distance_to(start) <= NEAR_M else 0.0
+    off_rad = wrap_angle(pose.bearing_to(start) - pose.yaw_rad)
+    is_behind = abs(off_rad) > math.pi / 2
+    if way_m <= NEAR_M or min(abs(off_rad), math.pi - abs(off_rad)) > FAR_RAD / 4:
+        raise Unclear("how_far", whole.text)
+    return [
+        Drive(part.number * way_m, direction_rad=math.pi if is_behind else 0.0, speed_mps=pace.speed(whole))
+    ]

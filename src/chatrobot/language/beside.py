@@ -16,7 +16,7 @@ from chatrobot.language.acts import MAYBE_ORDER, ORDER, Read, order_log_odds, re
 from chatrobot.language.aside_features import features, slot_of
 from chatrobot.language.data_files import DATA
 from chatrobot.language.lexicon import Meaning, lexicon
-from chatrobot.language.quoting import quotes_ahead, quotes_behind, sentences_of
+from chatrobot.language.quoting import names_measure, quotes_ahead, quotes_behind, sentences_of
 from chatrobot.language.set_off import has_amount
 from chatrobot.language.signs import Clause, Names, Sign
 
@@ -134,7 +134,7 @@ def _odds_of(clauses: Sequence[Clause], i: int, order: int, *, begins: bool) -> 
         quotes = quotes_behind(clauses[i], begins=begins)
     else:
         quotes = i + 1 == order and quotes_ahead(clauses[i], clauses[order])
-    return min(own, BEARS) if quotes else own
+    return min(own, BEARS) if quotes or names_measure(clauses[i]) else own
 
 
 def _says_way(clause: Clause) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.core.geometry import wrap_angle
-from chatrobot.language.back import driven_back, only_slid, only_turned, slid_back
+from chatrobot.language.back import driven_back, only_slid, only_turned, part_way_back, slid_back
 from chatrobot.language.changes import a_bit_of, changed, is_change, steps_named
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
@@ -19,7 +19,7 @@ from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
 from chatrobot.language.repeats import repeats_all
-from chatrobot.language.totals import to_total
+from chatrobot.language.totals import back_as_far_in_all, to_total
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import FAR_RAD, PACES, Walked, all_taken_back, last_two, redone, undone
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn
@@ -46,10 +46,14 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
         return None
     if "short_of" in whole.flags:
         return to_total(whole, context, pace)
-    start = _to_the_start(whole, frames, context, pace)
+    start = part_way_back(whole, context, pace) or _to_the_start(whole, frames, context, pace)
     if start is not None or _names_its_own(whole):
         return start
-    more = slid_back(whole, context, pace) or driven_back(whole, context)
+    more = (
+        back_as_far_in_all(whole, context, pace)
+        or slid_back(whole, context, pace)
+        or driven_back(whole, context)
+    )
     more = more or _more_of_before(whole, context, pace)
     if more is not None:
         return more

@@ -174,8 +174,12 @@ def with_earlier_speed(plain: str, reading: Reading) -> str:
         Unclear: there was no motion before, or it had several speeds.
     """
     found = same_speed(plain, reading.language)
-    if found is None or any(atom.value == "speed" for atom in reading.atoms(plain[: found.start()])):
-        return plain  # `1 m at 0.2 m/s, then back at the same speed`: that of this text
+    if found is None:
+        return plain
+    own = {atom.number for atom in reading.atoms(plain[: found.start()]) if atom.value == "speed"}
+    if own:  # `1 m at 0.2 m/s, then back at the same speed`: that of this text
+        told = f", 每秒{own.pop():g}米的速度" if len(own) == 1 else found.group()
+        return plain[: found.start()] + told + plain[found.end() :]
     turning = re.search("角|转", found.group()) is not None
     kinds = (Turn,) if turning else (Drive, Arc)
     done = [turn.plan.steps for turn in reversed(reading.context.dialogue.turns) if turn.plan is not None]
@@ -189,8 +193,7 @@ def with_earlier_speed(plain: str, reading: Reading) -> str:
         raise Unclear("nothing_before", found.group().strip(" ,"))
     [(amount, name, unit)] = named
     told = f", {name}{amount:g}{unit}, " if amount else ", "
-    rest = f"{plain[: found.start()]}{told}{plain[found.end() :]}"
-    return rest.strip(" ,;")
+    return f"{plain[: found.start()]}{told}{plain[found.end() :]}".strip(" ,;")
 
 
 @lru_cache(maxsize=128)

@@ -102,24 +102,43 @@ def check_heeded(
 def _check_clauses(
     atoms: Sequence[Atom], steps: Sequence[Step], read: Callable[[list[Atom]], Sequence[Step]]
 ) -> None:
-    """Ask back where a clause that names a motion without an amount or a way can be left out for nothing."""
+    """Ask back where a clause can be left out for nothing: one that names a motion alone, or says what comes then."""
     breaks = [-1, *(i for i, a in enumerate(atoms) if a.kind in ("sep", "conn")), len(atoms)]
     if not 3 <= len(breaks) <= _LONG:
         return
     for before, end in itertools.pairwise(breaks):
-        doing = {a.value for a in atoms[before + 1 : end] if a.kind == "verb"} & _DOINGS
+        inside = atoms[before + 1 : end]
         others = [a for i, a in enumerate(atoms) if not before < i < end and a.kind not in SILENT]
-        if not doing or not others or any(_changed(a, atoms) for a in atoms[before + 1 : end]):
+        if not others or not (_comes_next(atoms, before, inside) or _is_only_named(inside, atoms, others)):
             continue
-        doing |= _ABOUT if doing & _ABOUT else set()
-        if any((a.kind == "verb" and a.value in doing) or a.value in _RETURNING for a in others):
-            continue  # said again: `wait, wait 2 s`, `turn around, facing the other way`
         try:
             other = read([*atoms[: before + 1], *atoms[end:]])
         except Unclear:
             continue
         if list(other) == list(steps):
-            raise Unclear("unclear_motion", " ".join(a.text for a in atoms[before + 1 : end]))
+            raise Unclear("unclear_motion", " ".join(a.text for a in inside))
+
+
+def _comes_next(atoms: Sequence[Atom], before: int, inside: Sequence[Atom]) -> bool:
+    """`…, then forward 1 m`: a motion in full behind a word for what comes then."""
+    if before < 0 or (atoms[before].kind, atoms[before].value) != ("conn", "then"):
+        return False
+    told = any(a.kind == "q" and a.value in _EXTENTS for a in inside) and any(a.kind == "dir" for a in inside)
+    figures = sum(
+        a.kind == "shape" for a in atoms
+    )  # `a figure eight, a circle to the left and then …` says it twice
+    return told and figures < 2 and not any(a.value == "each" for a in atoms)
+
+
+def _is_only_named(inside: Sequence[Atom], atoms: Sequence[Atom], others: Sequence[Atom]) -> bool:
+    """Whether it says what to do by a verb alone, and nobody says it again: `wait, wait 2 s`, 掉个头，左转180度."""
+    doing = {a.value for a in inside if a.kind == "verb"} & _DOINGS
+    if not doing or any(_changed(a, atoms) for a in inside):
+        return False
+    if doing == {"uturn"} and any(a.value == "angle" and math.isclose(a.number, math.pi) for a in others):
+        return False
+    doing |= _ABOUT if doing & _ABOUT else set()
+    return not any((a.kind == "verb" and a.value in doing) or a.value in _RETURNING for a in others)
 
 
 def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:

@@ -39,6 +39,10 @@ def instead(
         return None
     for frame in frames:
         frame.flags.discard(MEANT)
+    if any("again" in frame.flags and not (frame.moves or frame.q) for frame in frames[1:]):
+        raise Unclear(
+            "unclear_motion", frames[0].text
+        )  # `I meant right. Start over`: all of it, or that turn?
     last = context.dialogue.turns[-1] if context.dialogue.turns else None
     if last is None or last.plan is None or any("short_of" in frame.flags for frame in frames):
         return None  # a total is reached from where it is

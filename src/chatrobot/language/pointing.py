@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from chatrobot.language.acts import ORDER, Read, order_log_odds, without
 from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, Aside, asides, is_reported, refers
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.quoting import names_measure
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Go
 
@@ -65,7 +66,7 @@ def _is_talk(read: Read, aside: Aside | None) -> bool:
     if ("later" in labels and "not" not in labels) or ("hypothetical" in labels and not aside.apart):
         return False
     moving = {sign.label for sign in clause.signs if sign.moves}
-    if labels & _HOLDING or not moving <= _LOOSE or refers(clause):
+    if labels & _HOLDING or not moving <= _LOOSE or refers(clause) or names_measure(clause):
         return False
     return aside.odds >= (SURE_ASIDE if clause.denies or "VERB" in moving else LEAST)
 

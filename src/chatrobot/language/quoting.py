@@ -19,6 +19,8 @@ _SKIPPED = frozenset(
 """Words that only open what is said."""
 _TOLD = frozenset({"verdict", "does", "did", "kin", "mine", "condition", "social"})
 """Labels of words of what somebody says, where it is told of: `mum says she is tired`."""
+_FEW = 4
+"""A clause that only names a measure has so many words at most."""
 _THEN = frozenset({"then", "and_then"})
 
 
@@ -72,6 +74,16 @@ def holds_back(clauses: Sequence[Clause]) -> bool:
     last = [clauses[i] for i in sentences[-1]]
     held = len(last) > 1 and any(_begins_with(clause, "takes_back") for clause in last)
     return held or _begins_with(last[0], "points_back")
+
+
+def names_measure(clause: Clause) -> bool:
+    """`Identical distance`, 距离不变: whether all it does is name what an order has an amount of."""
+    words = [sign.text for sign in clause.signs]
+    if len(words) > _FEW or any(sign.label in {*_TOLD, "not"} for sign in clause.signs):
+        return False
+    if any(word.isascii() for word in words):
+        return any(word in _phrases()["measures"] for word in words)
+    return any(name in "".join(words).replace("_", "") for name in _phrases()["measures"])
 
 
 def _is_motion(sign: Sign) -> bool:

@@ -16,7 +16,7 @@ from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import NEAR_M, NEAR_RAD, once_of
-from chatrobot.plan.steps import Drive, Step, Turn
+from chatrobot.plan.steps import Drive, Step, Turn, Wait
 
 
 def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
@@ -61,6 +61,25 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
             raise Unclear("contradiction", whole.text)
         return [Turn(abs(missing), left=step.left if missing > 0 else not step.left)]
     raise Unclear("nothing_before", whole.text)
+
+
+def back_as_far_in_all(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`Go back as far as you've gone altogether`, after drives in one direction: all of them; else None.
+
+    Raises:
+        Unclear: where the last motion was no drive.
+    """
+    if not {"same_amount", "total"} <= whole.flags or whole.direction != "back" or whole.has_extent:
+        return None
+    last = context.dialogue.last_motion
+    steps = steps_of(last)
+    if last is None or not isinstance(steps[-1], Drive):
+        raise Unclear("nothing_before", whole.text)
+    way_m = last.end_pose.distance_to(_run_start(context, steps[-1]))
+    if way_m <= NEAR_M:
+        raise Unclear("nothing_before", whole.text)
+    back_rad = math.remainder(steps[-1].direction_rad + math.pi, 2 * math.pi)
+    return [Drive(way_m, direction_rad=back_rad, speed_mps=pace.speed(whole))]
 
 
 def _ordered_first(turns: Sequence[TurnRecord], last: TurnRecord) -> TurnRecord:
@@ -139,7 +158,8 @@ def _run_start(context: Context, step: Drive) -> Pose:
     for turn in reversed(context.dialogue.turns):
         if turn.plan is None:
             continue
-        same = all(isinstance(s, Drive) and s.direction_rad == step.direction_rad for s in turn.plan.steps)
+        moves = [s for s in turn.plan.steps if not isinstance(s, Wait)]
+        same = all(isinstance(s, Drive) and s.direction_rad == step.direction_rad for s in moves)
         if not same:
             break
         start = turn.start_pose
