@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.core.geometry import wrap_angle
@@ -11,10 +12,14 @@ from chatrobot.language.context import Context
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.inverse import inverse, is_sideways
 from chatrobot.language.last_motion import steps_of
+from chatrobot.language.leading import pose_after
 from chatrobot.language.manner import Pace
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import FAR_RAD, NEAR_M
-from chatrobot.plan.steps import Drive, Step, Turn, Wait
+from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
+
+_NEAR_SHARE = 0.05
+"""A way that is told in full may miss the start by so much of it."""
 
 
 def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
@@ -89,3 +94,18 @@ def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | No
     return [
         Drive(part.number * way_m, direction_rad=math.pi if is_behind else 0.0, speed_mps=pace.speed(whole))
     ]
+
+
+def check_leads_to_start(last: Frame, steps: Sequence[Step], context: Context) -> None:
+    """`Two metres back to the start`, told in full: it must end there, where it begins or where all began.
+
+    Raises:
+        Unclear: it ends elsewhere.
+    """
+    if "to_start" not in last.flags or "length" not in last.q or not steps or isinstance(steps[-1], Go):
+        return
+    pose = context.state.pose
+    end = pose_after(steps, pose)
+    near_m = NEAR_M + _NEAR_SHARE * last.q["length"].number
+    if end is not None and min(map(end.distance_to, (pose, context.dialogue.start_pose))) > near_m:
+        raise Unclear("contradiction", last.text)

@@ -123,6 +123,8 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
     ahead_rad = next((step.direction_rad for step in _leaves(before) if isinstance(step, Drive)), 0.0)
     steps = [_step(step, whole, factors, pace, ahead_rad) for step in before]
+    if factor != 1.0 and steps == list(before):  # `half the angle`, of what never turned
+        raise Unclear("nothing_before", whole.text)
     count = whole.q.get("times")
     if count is not None:
         return steps * whole_number(count.number, count.text)
@@ -239,7 +241,11 @@ def _step(step: Step, whole: Frame, factors: Factors, pace: Pace, ahead_rad: flo
     if isinstance(step, Arc):
         left = side == "left" if side else step.left != opposite
         return dataclasses.replace(
-            step, left=left, radius_m=step.radius_m * factor, speed_mps=_speed(step.speed_mps, whole, pace)
+            step,
+            left=left,
+            radius_m=step.radius_m * factor,
+            angle_rad=step.angle_rad * factors.angle,
+            speed_mps=_speed(step.speed_mps, whole, pace),
         )
     if isinstance(step, RawTwist) and not side:
         sign = -1.0 if opposite else 1.0

@@ -151,7 +151,8 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     before = dialogue.last_motion.plan.steps
     is_changed = any((a.kind, a.value) == ("flag", "instead") for a in atoms) and len(before) > 1
     told = [a for a in atoms if a.value != "wait" or not any(isinstance(step, Wait) for step in before)]
-    if is_changed and not any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in told):
+    own_kind = any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in told)
+    if is_changed and (not own_kind or names_a_part(plain, language)):
         raise Unclear("unclear_motion", plain[:60])  # 角度改成六十度: of what was done, or once more?
     size = with_another_size(plain, atoms, language)
     if size is not None and (len(before) > 1 or size.roles != {"side"}):
@@ -278,13 +279,16 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         steps = reading.steps(frames)
         steps = [] if is_choice(plain, language) or questions.asks_what_it_can(plain, language) else steps
         plain_question = questions.is_plain_question(plain, language)
-        if steps and any(f.has_extent or (f.moves and not plain_question) for f in frames):
+        told = any(f.has_extent or "times" in f.q for f in frames)
+        if steps and (told or any(f.moves and not plain_question and not _is_bare(f) for f in frames)):
             return None
     except Unclear:
         ways = any(a.kind in ("dir", "rot", "shape") for a in atoms)
         doing = ways or any(a.kind == "verb" and a.value in _DOINGS for a in atoms)
         amount = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
-        if doing and ((amount and is_ordered(plain)) or questions.asks_a_favour(plain, language)):
+        favour = questions.asks_a_favour(plain, language)
+        counted = any(a.kind == "q" and a.value == "times" for a in atoms)
+        if (doing and amount and is_ordered(plain)) or ((doing or amount or counted) and favour):
             raise  # could you …: it is to be done, and no fact answers it
     if questions.orders(plain, language):
         return None
@@ -295,6 +299,12 @@ def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) ->
         return None
     reply = questions.answer(topic, language, reading.context, reading.profile)
     return Interpretation("answered", reply, language)
+
+
+def _is_bare(frame: Frame) -> bool:
+    """`Can you drive?`: a verb alone asks whether it can."""
+    told = frame.direction or frame.rot or frame.shape or frame.place or frame.words or frame.flags
+    return not told and frame.verb in (*GO, *TURN, "curve")
 
 
 def _check_no_question_beside(plain: str, reading: Reading) -> None:

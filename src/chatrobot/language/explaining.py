@@ -15,9 +15,10 @@ from chatrobot.language.glossed import in_known_words
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.names import names_in, naming_points, with_points
+from chatrobot.language.names import names_in
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import describe_steps, say
+from chatrobot.language.points import naming_points, with_points
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.rephrase import rephrased, rewritings
 from chatrobot.language.tokens import SILENT, tokenise

@@ -18,6 +18,7 @@ from chatrobot.language.acts import (
     without,
     without_requests,
 )
+from chatrobot.language.bare_orders import is_bare_order
 from chatrobot.language.beside import (
     any_may_bear,
     are_asides,
@@ -40,12 +41,13 @@ from chatrobot.language.left_out import with_tails_parted
 from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.misspelt import misspelt_place
-from chatrobot.language.names import names_in, naming_points, with_points
+from chatrobot.language.names import names_in
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, with_spoken_place
 from chatrobot.language.pointing import beside_reference
+from chatrobot.language.points import naming_points, with_points
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
@@ -220,6 +222,7 @@ class OfflineInterpreter:
                 # What a request for a program tells in full is its own reader's.
                 bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 bears = bears and not read_program_request(rest)
+                bears |= is_bare_order(meant.plan, [read for read in reads if read not in talk])
                 return (proposed(meant, language) or meant) if bears else meant
             except Unclear as problem:
                 missing = problem if problem.code in _OF_AN_ORDER and apart else None

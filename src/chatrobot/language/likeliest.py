@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 from chatrobot.core.event import Proposal
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, talk_in
+from chatrobot.language.bare_orders import is_bare_order
 from chatrobot.language.beside import (
     BEARS,
     MAYBE_ASIDE,
@@ -104,13 +105,15 @@ def likeliest(
     is_sure = bool(apart) or not problem.refused or _is_clearly_told(plain, problem, told, odds)
     is_sure &= not any_may_bear(reads, [read for read in gone if read not in apart])
     is_sure &= not (pointing and any(may_change(read, odds) for read in gone if read not in apart))
-    rest = _kept(plain, [read for read in reads if read not in gone])
+    kept = [read for read in reads if read not in gone]
+    rest = _kept(plain, kept)
     parts = tuple(_said(plain, read).strip(" ,.;:!") for read in gone)
     try:
         meant = read(rest)
     except Unclear as stumbled:
         found = search.proposal(rest, stumbled, parts)
         return found or (search.proposal(plain, problem) if gone and not problem.refused else None)
+    is_sure &= bool(pointing) or not is_bare_order(meant.plan, kept)
     return meant if is_sure else proposed(meant, language, parts)
 
 

@@ -82,6 +82,9 @@ def measured(parts: list[Frame], pace: Pace) -> Measures:
     return found
 
 
+_SIDES = {"square": 4, "rectangle": 4, "triangle": 3, **{f"polygon_{count}": count for count in range(3, 13)}}
+
+
 def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: Atom) -> None:
     value = amount.number
     if name in ("length", "angle", "time") and not (math.isfinite(value) and 0 < value <= 1000):
@@ -96,9 +99,13 @@ def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: A
     elif name == "count" and _is_its_parts(head, part, value):
         return
     elif name == "count":
+        if amount.role == "side" and value > _SIDES.get(head.shape, value):
+            raise Unclear("contradiction", part.text)  # `a square with 50 sides`
         found.counts[amount.role] = whole_number(value)
         if amount.role in ("lap", "loop"):
             found.times *= whole_number(value)
+    elif name == "number" and _is_said_again(part, amount):
+        return
     elif name == "number" and _is_its_size(head, part, amount):
         raise Unclear("no_unit", amount.text)  # `a circle of radius 60` is not sixty circles
     elif name == "number" and head.shape in ("eight", "racetrack", "sbend"):
@@ -126,9 +133,19 @@ def _is_its_parts(head: Frame, part: Frame, value: float) -> bool:
 
 def _is_its_size(head: Frame, part: Frame, amount: Atom) -> bool:
     """Whether a bare number is a size and no count: it stands with `radius` or `side`, or behind `three legs`."""
-    if "length" in part.q or part.shape == "polygon" or _is_its_parts(head, part, amount.number):
+    if part.shape == "polygon" or _is_its_parts(head, part, amount.number):
+        return False
+    if "length" in part.q:
         return False
     return bool(part.roles) or "count" in part.q
+
+
+def _is_said_again(part: Frame, amount: Atom) -> bool:
+    """`A square with side 50, that is 50 cm`: the size without its unit, and no count."""
+    length = part.q.get("length")
+    if length is None or not length.role or not part.roles:
+        return False
+    return amount.number > 1 and math.isclose(amount.number * float(length.role), length.number)
 
 
 def _multiply(found: Measures, part: Frame, name: str, value: float) -> None:

@@ -2,57 +2,16 @@
 
 from __future__ import annotations
 
-import re
-from dataclasses import replace
-
-from chatrobot.core.geometry import Pose
 from chatrobot.language import forms
 from chatrobot.language.compiled import Key
-from chatrobot.language.context import Context, Place
+from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
 from chatrobot.language.facts import unit_length_m
 from chatrobot.language.lexicon import Meaning, cut, lexicon
 from chatrobot.language.normalise import normalise
-
-_NUMBER = r"([-+]?\d*\.?\d+) ?m?"
-_POINT = re.compile(
-    rf"[(（] ?{_NUMBER} ?[,，] ?{_NUMBER} ?[)）]"
-    rf"|(?<![a-z])x ?= ?{_NUMBER}[ ,，]+(?:[a-z]{{1,3}} )?y ?= ?{_NUMBER}(?![\d.])",
-    re.IGNORECASE,
-)
-_LETTERS = str.maketrans("0123456789.-+,e", "abcdefghijkmpqu", "() ")
-_TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
+from chatrobot.language.points import word_of
 
 _LIGHT = frozenset({"conn", "flag", "glue", "filler", "number", "num", "dir", "rot"})
-
-
-def with_points(text: str, context: Context) -> tuple[str, Context]:
-    """`Go to (1, 1)`, `x=1 y=2`: each point, metres in the odom frame, is a place of this text alone, in one word."""
-    places: dict[str, Place] = {}
-
-    def word(found: re.Match[str]) -> str:
-        x_m, y_m = (float(number) for number in found.groups() if number is not None)
-        name = f"({x_m:g}, {y_m:g})"
-        places[name] = Place(Pose(x_m, y_m, 0.0))
-        return f" {word_of(name)} "
-
-    said = text if _TWIST.search(text) else _POINT.sub(word, text)
-    if not places:
-        return text, context
-    dialogue = replace(context.dialogue, places={**context.dialogue.places, **places})
-    return said, replace(context, dialogue=dialogue)
-
-
-def naming_points(said: str, context: Context) -> str:
-    """What is told, with the points as they are written."""
-    for name in context.dialogue.places:
-        said = said.replace(word_of(name), name) if _POINT.fullmatch(name) else said
-    return said
-
-
-def word_of(name: str) -> str:
-    """The name of a place as it is looked up in a text: that of a point is one word of letters."""
-    return "xy" + name.translate(_LETTERS) if _POINT.fullmatch(name) else name
 
 
 def without_light_words(names: dict[Key, Meaning]) -> dict[Key, Meaning]:

@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.language.after_amount import ended_by_amount, with_after
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import SILENT, Atom
+from chatrobot.language.unclear import Unclear
 
 _CONTENT = ("verb", "dir", "rot", "q", "shape", "place")
+_NOTHING = SILENT | {"num"}
+"""Kinds of words that say nothing to do before or after something else."""
 _THEN = Atom("conn", "then", "")
 
 
 def in_order(atoms: Sequence[Atom]) -> list[Atom]:
-    """The atoms with what is done first said first."""
+    """The atoms with what is done first said first.
+
+    Raises:
+        Unclear: where a word for before or after has nothing behind it.
+    """
     atoms = _settled_after(with_after(atoms))
     at = next((i for i, a in enumerate(atoms) if a.kind == "order"), None)
     if at is None:
@@ -22,6 +29,8 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     if before[1:] and (before[-1].kind, before[-1].value) == ("conn", "then"):
         return [*head, *in_order(atoms[at:])]  # `turn right and then, after waiting 3 s, go 1 m`
     leads = not any(a.kind in _CONTENT for a in head)
+    if not leads and word.value in ("after", "before") and all(a.kind in _NOTHING for a in tail):
+        raise Unclear("unknown_part", " ".join(a.text for a in atoms[at:]))  # `stop 20 cm before me`
     if word.value == "after" and not leads and any(a.kind == "flag" and a.value == "first" for a in head):
         return in_order([*head, _THEN, *tail])  # `first …, after you …`: as said
     ended = ended_by_amount(head, tail) if word.text == "after" and not leads else None

@@ -12,9 +12,9 @@ from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode
-from chatrobot.language.names import word_of
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import by_language, say
+from chatrobot.language.points import word_of
 from chatrobot.language.questions import places_known, topic_of, unknown_pose
 from chatrobot.language.rules import Rule, rules
 from chatrobot.language.seen import SECTORS, what_is_seen

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from chatrobot.language.announced import with_announced
 from chatrobot.language.around import around_places, once_around
+from chatrobot.language.back import check_leads_to_start
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_cautions, without_chatter
 from chatrobot.language.clauses import read_frames
@@ -121,7 +122,10 @@ class Reading:
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
         """The steps of frames that do not refer to an earlier turn as a whole."""
-        return write(frames, self.pace, self._memory())
+        last = frames[-1].copy() if frames else Frame()
+        steps = write(frames, self.pace, self._memory())
+        check_leads_to_start(last, steps, self.context)
+        return steps
 
     def _memory(self) -> Memory:
         dialogue = self.context.dialogue

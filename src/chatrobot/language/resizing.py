@@ -27,7 +27,7 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
     for size in edit.amounts:
         role = "radius" if {"radius", "diameter"} & edit.roles else size.value
         number = size.number / 2 if "diameter" in edit.roles else size.number
-        takers = tuple(edit.kinds) if Wait in edit.kinds else TAKERS[role]
+        takers = tuple(edit.kinds) if Wait in edit.kinds else TAKERS.get(role, ())  # none takes a count
         taken = [i for i, step in enumerate(out) if isinstance(step, takers)]
         lasting = [i for i in taken if getattr(out[i], "duration_s", None)]
         taken = lasting if role == "time" and lasting else taken  # of a pause before 1 m it is the pause

@@ -91,7 +91,10 @@ def _check_beside(frames: list[Frame]) -> None:
 
 
 def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
-    """A drive without an amount beside clauses that have one is most likely a clause that was misread: ask."""
+    """A drive without an amount beside clauses that have one, or as something before, was most likely misread: ask."""
+    for frame in unsaid:
+        if "again" in frame.flags and frame.q:  # `the same move forward again at double the speed`
+            raise Unclear("how_far", frame.text)
     if any(frame.has_extent for frame in frames):
         for frame in unsaid:
             if frame.joined not in ("then", "and"):

@@ -1,0 +1,95 @@
+"""Points by their coordinates: `go to (1, 1)`, `x=1 y=2`, `to the coordinates x 1.5, y minus 1, heading 90 degrees`."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from chatrobot.core.geometry import Pose
+from chatrobot.language.context import Context, Place
+from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
+
+_NUMBER = r"([-+−]?\d*\.?\d+) ?m?"
+_NAMED = r"((?:[-+−] ?|minus )?\d*[.,]?\d+)(?: ?m(?:et(?:er|re)s?)?\b)?"
+_POINT = re.compile(
+    rf"[(（] ?{_NUMBER} ?[,，] ?{_NUMBER} ?[)）]"
+    rf"|(?<![a-z])x ?= ?{_NAMED}[ ,，]+(?:[a-z]{{1,3}} )?y ?= ?{_NAMED}(?![\d.])"
+    rf"|(?<![a-z\d])x {_NAMED}[ ,，]+(?:[a-z]{{1,3}} )?y {_NAMED}(?![\d.])",
+    re.IGNORECASE,
+)
+_WRITTEN = re.compile(rf"\({_NUMBER}, {_NUMBER}\)")
+_LETTERS = str.maketrans("0123456789.-+,e", "abcdefghijkmpqu", "() ")
+_TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class _Words:
+    """How a language leads to a point and goes on behind it, and how it says the heading that a place has."""
+
+    lead: re.Pattern[str]
+    heading: re.Pattern[str]
+    its_heading: str
+
+
+def with_points(text: str, context: Context) -> tuple[str, Context]:
+    """A text in which each point, metres in the odom frame, is a place of this text alone, in one word."""
+    if _TWIST.search(text) or not _POINT.search(text):
+        return text, context
+    places: dict[str, Place] = {}
+    out, at = "", 0
+    for found in _POINT.finditer(text):
+        x_m, y_m = (_number(number) for number in found.groups() if number is not None)
+        name = f"({x_m:g}, {y_m:g})"
+        lead, (heading_deg, end, its_heading) = _lead(text[at : found.start()]), _heading(text, found.end())
+        places[name] = Place(Pose(x_m, y_m, math.radians(heading_deg)))
+        out += f"{lead} {word_of(name)} {its_heading}"
+        at = end
+    dialogue = replace(context.dialogue, places={**context.dialogue.places, **places})
+    return out + text[at:], replace(context, dialogue=dialogue)
+
+
+def naming_points(said: str, context: Context) -> str:
+    """What is told, with the points as they are written."""
+    for name in context.dialogue.places:
+        said = said.replace(word_of(name), name) if _WRITTEN.fullmatch(name) else said
+    return said
+
+
+def word_of(name: str) -> str:
+    """The name of a place as it is looked up in a text: that of a point is one word of letters."""
+    return "xy" + name.translate(_LETTERS) if _WRITTEN.fullmatch(name) else name
+
+
+def _number(written: str) -> float:
+    return float(written.replace("minus", "-").replace("−", "-").replace(" ", "").replace(",", "."))
+
+
+def _lead(text: str) -> str:
+    """The text without a word like `coordinates` at its end."""
+    for words in _words():
+        text = words.lead.sub("", text)
+    return text
+
+
+def _heading(text: str, at: int) -> tuple[float, int, str]:
+    """The heading, degrees, that is told behind a point, where that and a unit end, and the words for it."""
+    behind = [(words, found) for words in _words() if (found := words.heading.match(text, at)) is not None]
+    words, found = max(behind, key=lambda each: each[1].end())
+    if found["deg"] is None:
+        return 0.0, found.end(), ""
+    return _number(found["deg"]), found.end(), words.its_heading
+
+
+@lru_cache(maxsize=1)
+def _words() -> tuple[_Words, ...]:
+    tables = (load_table(code, "relations")["points"] for code in REPLY_LANGUAGES)
+    return tuple(
+        _Words(
+            re.compile(table["lead"], re.IGNORECASE),
+            re.compile(table["heading"], re.IGNORECASE),
+            table["its_heading"],
+        )
+        for table in tables
+    )

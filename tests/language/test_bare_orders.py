@@ -1,0 +1,81 @@
+"""An order that tells no amount is proposed where what was left out beside it may tell one, or whom it is for."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.language.dialogue_runner import Conversation, conversation
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "你往左手边看，那是我家",
+        "路在脚下，往前走吧朋友们",
+        "头往左歪，我给你剪头发",
+        "I've a bet on wi Senga here that ye can birl on the spot. Three times the hale way roon, clockwise, show her.",
+    ],
+)
+def test_it_is_not_done_unasked(said: str) -> None:
+    assert Conversation().say(said).plan is None
+
+
+@pytest.mark.parametrize(
+    "said", ["the sun is out. Go forward", "Good boy! Now turn right.", "thanks. turn left", "谢谢，往前走"]
+)
+def test_a_plain_order_beside_talk_is_done(said: str) -> None:
+    assert Conversation().say(said).plan is not None
+
+
+@pytest.mark.parametrize(
+    "said", ["can you drive?", "can you go?", "你能走吗？", "kannst du fahren?", "could you drive?"]
+)
+def test_a_question_whether_it_can_is_answered(said: str) -> None:
+    assert Conversation().say(said).outcome == "answered"
+
+
+@pytest.mark.parametrize(
+    ("said", "outcome"),
+    [
+        (
+            "I am standing 2 metres straight ahead of you. Come towards me and stop 20 cm before me.",
+            "unclear",
+        ),
+        (
+            "five metres up, do a one-eighty, and roll the same five metres down to where you started",
+            "unclear",
+        ),
+        ("zurück nach A", "unclear"),
+        ("could you please pirouettify us five metres, slowly at 0.2 m/s?", "unclear"),
+    ],
+)
+def test_what_is_not_accounted_for_is_asked_about(said: str, outcome: str) -> None:
+    assert Conversation().say(said).outcome == outcome
+
+
+@pytest.mark.parametrize(
+    ("said", "steps"),
+    [
+        ("drive 1 m at 0.2 m/s / back 1 m / now the same move forward again at double the speed", 0),
+        ("forward 1 m, left 90, forward 0.5 m / do the last step once more", 1),
+        ("2 m vor, links 90 grad, 1 m vor / mach den letzten Schritt nochmal", 1),
+        ("turn left 90 / Fahren Sie dieselbe Strecke rückwärts wieder zurück.", 0),
+        (
+            "arc left 90 deg radius 1 m / drive 1 m back / the first move once more, but only half the angle",
+            1,
+        ),
+        ("前进1m，左转60°，再前进0.5m / 从当前位姿再跑一遍，第二步改成右转60°", 3),
+        ("drive 1 m / drive 0.5 m back / Genau so, danke schön, da freut sich der Herr Krause.", 0),
+        ("umdrehen / zwei Meter vor / Jetzt bitte wieder dahin, wo Sie ganz am Anfang gestanden sind.", 1),
+    ],
+)
+def test_a_reference_takes_no_more_than_it_names(said: str, steps: int) -> None:
+    *before, last = said.split(" / ")
+    plan = conversation(*before).say(last).plan
+    assert (len(plan.steps) if plan is not None else 0) == steps
+
+
+def test_half_the_angle_of_a_curve_keeps_its_radius() -> None:
+    plan = conversation("arc left 90 deg radius 1 m").say("once more, but only half the angle").plan
+    assert plan is not None
+    assert plan.steps[0] == Conversation().say("arc left 45 deg radius 1 m").plan.steps[0]  # type: ignore[union-attr]

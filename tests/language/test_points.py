@@ -1,0 +1,62 @@
+"""Points, places and sizes as engineers and teachers write them: coordinates, headings, names, a size said again."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from chatrobot.plan.steps import Go
+from tests.language.dialogue_runner import Conversation
+
+
+@pytest.mark.parametrize(
+    ("said", "go"),
+    [
+        (
+            "Kindly go to the coordinates x = 1.2 and y = 0.8 metre, your heading should be 90 degrees",
+            (1.2, 0.8, 90),
+        ),
+        ("goto (2.0, -1.0), final yaw = +90°", (2.0, -1.0, 90)),
+        ("go to x 1.5, y minus 1", (1.5, -1.0, None)),
+        ("到点 (1.5, -0.8)，单位米，到位后航向给到90°", (1.5, -0.8, 90)),
+        (
+            "fahr zu den Koordinaten x = 1,5 y = -1 und richte dich auf Gierwinkel 90 Grad aus",
+            (1.5, -1.0, 90),
+        ),
+        ("go to (1, 2)", (1.0, 2.0, None)),
+    ],
+)
+def test_a_point_may_have_a_heading(said: str, go: tuple[float, float, float | None]) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is not None
+    [step] = plan.steps
+    assert isinstance(step, Go)
+    yaw_deg = None if step.yaw_rad is None else math.degrees(step.yaw_rad)
+    assert (step.x_m, step.y_m, yaw_deg) == pytest.approx(go)
+
+
+@pytest.mark.parametrize(
+    ("said", "squares"),
+    [
+        ("a square with side 50, that is 50 cm", 1),
+        ("three squares with side 1 m", 3),
+        ("a square with 50 sides", 0),
+    ],
+)
+def test_a_size_is_no_count(said: str, squares: int) -> None:
+    plan = Conversation().say(said).plan
+    assert (len(plan.steps) if plan is not None else 0) == 8 * squares
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [
+        ("This place please remember as sample point.", "sample point"),
+        ("This place where you are has the name of table.", "table"),
+        ("aktuelle Position merken als A", "a"),
+        ("das hier is deine garage ok? merk dir das", "garage"),
+    ],
+)
+def test_a_place_is_named_in_any_order_of_words(said: str, name: str) -> None:
+    assert Conversation().say(said).remember_place == name
