@@ -11,6 +11,7 @@ from chatrobot.core.events import (
     Finished,
     Interpreted,
     Limited,
+    Notice,
     Ordered,
     ProgramLog,
     ProgramWritten,
@@ -71,6 +72,23 @@ def test_a_plan_that_cannot_be_read_can_be_mended(page: Page, rig: WebRig) -> No
     rig.tell(Result(1, "unclear", "This plan cannot be read."))
     page.locator("#plan-edit").click()
     expect(page.get_by_label("The plan, one step a line")).to_have_value("turn left 90 deg\nfly 3 m")
+
+
+def test_an_edit_that_cannot_be_read_stays_open_and_the_version_before_waits(page: Page, rig: WebRig) -> None:
+    say(page, rig, "drive half a metre")
+    rehearse(rig)
+    page.get_by_role("log", name="What was said").get_by_role("button", name="Edit").click()
+    editor = page.get_by_label("The plan, one step a line")
+    editor.fill("drive 0.2 m\nfly 3 m")
+    page.get_by_role("button", name="Rehearse and run").click()
+    rig.session.wait_for("say_edited_plan", "drive 0.2 m\nfly 3 m", PLAN)
+    rig.tell(Notice(2, Reason("edit_unreadable", {"problem": "line 2: 'fly 3 m'"})))
+    rig.tell(Interpreted(2, "offline", PLAN, ""))
+    rig.tell(Rehearsed(2, True, 8.0, 0.95, ORIGIN, needs_approval=True))
+    expect(editor).to_have_value("drive 0.2 m\nfly 3 m")
+    editor.fill("drive 0.2 m")
+    page.get_by_role("button", name="Rehearse and run").click()
+    rig.session.wait_for("say_edited_plan", "drive 0.2 m", PLAN)
 
 
 def test_what_an_agent_asks_for_is_seen_before_the_yes_and_its_end_after(page: Page, rig: WebRig) -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from chatrobot.core.events import Telemetry
+from chatrobot.core.geometry import Pose, Twist
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.sim.shapes import Circle
 from tests.web.browser import browser, open_page, page
@@ -101,6 +104,42 @@ def test_a_tap_on_the_floor_asks_for_the_way_there(page: Page, rig: WebRig) -> N
     assert do == "say_edited_plan"
     assert plan_text.startswith("go to ")
     assert "facing" not in plan_text
+
+
+def _metres_across(page: Page, rig: WebRig) -> float:
+    """How far apart the points of the floor lie at a fifth and four fifths of the map's width."""
+    floor = page.locator("#floor").bounding_box()
+    assert floor is not None
+    asked = []
+    for share in (0.2, 0.8):
+        rig.session.log.clear()
+        page.mouse.click(floor["x"] + share * floor["width"], floor["y"] + floor["height"] / 2)
+        wait_until(lambda: bool(rig.session.log))
+        asked.append([float(number) for number in rig.session.log[0][1].split()[2:4]])
+    return math.dist(*asked)
+
+
+def test_the_map_shows_all_in_a_window_of_another_size_until_it_is_moved(page: Page, rig: WebRig) -> None:
+    across_m = _metres_across(page, rig)
+    page.set_viewport_size({"width": 900, "height": 420})
+    wait_until(
+        lambda: _metres_across(page, rig) > 1.5 * across_m
+    )  # it is lower now, so the same scale is not enough
+    page.mouse.move(400, 250)
+    page.mouse.wheel(0, -400)
+    page.wait_for_timeout(100)
+    zoomed_m = _metres_across(page, rig)
+    page.set_viewport_size({"width": 890, "height": 420})
+    page.wait_for_timeout(200)
+    assert _metres_across(page, rig) == pytest.approx(zoomed_m, rel=0.1)
+
+
+def test_the_heading_is_told_without_whole_turns(page: Page, rig: WebRig) -> None:
+    def summary() -> str:
+        rig.tell(Telemetry(0, Pose(0.0, 0.0, math.radians(432.0)), Twist(), 0.0))
+        return page.locator("#map-summary").text_content() or ""
+
+    wait_until(lambda: "heading 72 degrees" in summary())
 
 
 def test_a_drag_sets_the_heading_where_that_was_asked_for_and_moves_the_map_else(

@@ -65,7 +65,7 @@ function resize() {
   const ratio = Math.min(devicePixelRatio || 1, 2);
   [view.width, view.height] = [Math.max(1, width), Math.max(1, height)];
   [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-  if (!isFitted) fit();
+  if (!isFitted || !view.isMoved) fit();
   draw();
 }
 
@@ -93,7 +93,8 @@ function noteTelemetry(event) {
   if (known.trail.length > MOST_TRAIL) known.trail.shift();
   if (performance.now() - summaryMs < SUMMARY_MS) return;
   summaryMs = performance.now();
-  const heading = ((event.pose.yaw_rad * 180) / Math.PI).toFixed(0);
+  const { yaw_rad: yaw } = event.pose; // it counts turns
+  const heading = ((Math.atan2(Math.sin(yaw), Math.cos(yaw)) * 180) / Math.PI).toFixed(0);
   setText(byId("map-summary"), t("map_summary", { x: x.toFixed(2), y: y.toFixed(2), heading }));
 }
 

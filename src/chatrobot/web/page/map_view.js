@@ -9,6 +9,7 @@ export class View {
     this.width = this.height = 1;
     this.scale = 70; // pixels a metre
     this.x = this.y = 0; // the point of the world in the middle
+    this.isMoved = false; // by a person, since all was shown
     this.turn(0);
   }
 
@@ -43,9 +44,11 @@ export class View {
     this.x += right / this.scale - right / scale;
     this.y += up / this.scale - up / scale;
     this.scale = scale;
+    this.isMoved = true;
   }
 
   pan(rightPx, downPx) {
+    this.isMoved = true;
     this.x -= rightPx / this.scale;
     this.y += downPx / this.scale;
   }
@@ -67,5 +70,6 @@ export class View {
     this.scale = Math.max(LEAST_SCALE, Math.min(MOST_SCALE, across, up));
     this.x = (left + right + (end - begin) / this.scale) / 2;
     this.y = (low + high + (top - bottom) / this.scale) / 2;
+    this.isMoved = false;
   }
 }

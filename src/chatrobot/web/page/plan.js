@@ -8,7 +8,9 @@ const lines = byId("plan-lines");
 const text = byId("plan-text");
 const about = byId("plan-about");
 
-const plan = { turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false };
+const plan = {
+  turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false, sent: "",
+};
 
 const NUMBER_OR_QUOTED = /"(?:[^"\\]|\\.)*"|-?\d+\.\d{4,}(?:e[-+]?\d+)?/g;
 
@@ -83,6 +85,7 @@ function run() {
   }
   if (!send(message)) return;
   if (plan.isEdited) show(0, planText.split("\n")); // one that cannot be read can be mended
+  plan.sent = plan.isEdited ? planText : "";
   plan.isEdited = plan.waits = false;
   draw();
 }
@@ -98,6 +101,12 @@ function show(turn, planLines) {
 }
 
 const heard = {
+  notice(event) {
+    if (event.reason.code !== "edit_unreadable" || !plan.sent) return false;
+    // What waits now is the version before it: its edit stays open, or a yes would mean what is not seen.
+    Object.assign(plan, { isEdited: true, edits: event.turn, sent: "" });
+    return true;
+  },
   streamed(event) {
     if (event.turn !== plan.turn || !plan.streams) show(event.turn, []);
     plan.streams = true;
