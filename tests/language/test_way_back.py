@@ -8,6 +8,9 @@ from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import conversation
 
 
+LEFT_40 = "; ".join(["drive 0.4 m; turn left 90 deg"] * 4)
+
+
 def _last(said: str) -> str:
     *before, last = said.split(" / ")
     meant = conversation(*before).say(last)
@@ -53,3 +56,23 @@ def test_the_same_speed_is_that_of_the_same_text() -> None:
     assert _last("以0.4米每秒前进2米，右转90度，再以同样的速度前进1米") == (
         "drive 2 m at 0.4 m/s; turn right 90 deg; drive 1 m at 0.4 m/s"
     )
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("square, 60 cm sides, clockwise / same thing but counterclockwise and 40 cm sides", LEFT_40),
+        ("Quadrat 60 cm rechtsherum / dasselbe linksherum mit 40 cm", LEFT_40),
+        (
+            "circle radius 50 cm to the left / same but to the right and radius 1 m",
+            "arc right 360 deg radius 1 m",
+        ),
+        ("turn left 90, forward 1 m / same but right and 50 cm", "turn right 90 deg; drive 0.5 m"),
+        ("左转90度 / 一样的，但是右转45度", "turn right 45 deg"),
+        ("forward 1 m / again but longer, 2 m", "drive 2 m"),
+        ("forward 1 m / again but a bit further", "unclear"),
+        ("forward 1 m / the same but further", "unclear"),
+    ],
+)
+def test_a_side_and_a_size_change_the_motion_before_together(said: str, plan: str) -> None:
+    assert _last(said) == plan

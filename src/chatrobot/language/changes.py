@@ -100,9 +100,13 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     """The steps `before` as `whole` wants them now.
 
     Raises:
-        Unclear: where the change fits none of them, or several.
+        Unclear: where the change fits none of them, or several, or does not tell how much.
     """
     whole = _speed_said(_part_said(whole), before)
+    if {"again", "more", "bit"} <= whole.flags and not whole.q:
+        raise Unclear(
+            "how_far", " ".join(dict.fromkeys(whole.texts))
+        )  # `again but a bit further`: by how much?
     fold = whole.q.get("fold")
     if fold is not None and is_chinese(fold.text):
         whole = whole.copy()

@@ -11,7 +11,7 @@ from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.changes import takes_from_before
 from chatrobot.language.corrections import CORRECTING
 from chatrobot.language.edits import edited
-from chatrobot.language.figures import figure_asked, with_another_size
+from chatrobot.language.figures import figure_asked, with_another_size, with_side_and_size
 from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
@@ -154,6 +154,9 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     own_kind = any(a.kind in ("verb", "dir", "shape") or a.value == "again" for a in told)
     if is_changed and (not own_kind or names_a_part(plain, language)):
         raise Unclear("unclear_motion", plain[:60])  # 角度改成六十度: of what was done, or once more?
+    both = with_side_and_size(atoms, dialogue)
+    if both is not None:
+        return both
     size = with_another_size(plain, atoms, language)
     if size is not None and (len(before) > 1 or size.roles != {"side"}):
         sized = resized(list(before), size)
@@ -167,8 +170,7 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
             if is_correction(dialogue.last_motion):
                 raise Unclear("unclear_motion", atoms[-1].text)  # what was done, or what was meant?
             return [*reading.steps_of_their_own(own), *before]
-    waited = _waited(atoms)
-    if waited and not is_correction(dialogue.last_motion):
+    if (waited := _waited(atoms)) and not is_correction(dialogue.last_motion):
         return [*reading.steps_of_their_own(waited), *before]
     own = frames_of(_after_again(atoms))
     if any(f.moves for f in own) and not (

@@ -7,12 +7,15 @@ from collections.abc import Sequence
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edit_words import Edit
+from chatrobot.language.frames import SIDES
 from chatrobot.language.inverse import flipped
 from chatrobot.language.resizing import resized
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
 
 _SIZED = ("side", "radius", "diameter")
+_SIZES = ("length", "angle", "turns")
+_MIRRORING = ("other_way", "mirrored")
 _ROUND_RAD = 6.0
 """What turns by less in all is no closed figure."""
 
@@ -37,6 +40,27 @@ def _size(atoms: Sequence[Atom]) -> Edit | None:
     if others or len(sized) != 1 or sized[0].value != "length" or sized[0].number <= 0.0 or len(roles) > 1:
         return None  # less than none: `minus 10 cm`
     return Edit(amounts=sized, roles=roles or {"side"})
+
+
+def with_side_and_size(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
+    """`The same but counterclockwise and with 40 cm sides`: what turned, to that side and of that size; else None."""
+    said, last = [atom for atom in atoms if atom.kind not in SILENT], dialogue.last_motion
+    if last is None or last.plan is None or not any(atom.value == "again" for atom in said):
+        return None
+    sides = {atom.value for atom in said if atom.kind in ("rot", "dir") or atom.value in _MIRRORING}
+    sizes = [atom for atom in said if atom.kind == "q"]
+    others = [a for a in said if a not in sizes and a.value not in {"again", "turn", "make", *_SIZED, *sides}]
+    turning = {step.left for step in last.plan.steps if isinstance(step, (Turn, Arc))}
+    if others or len(sides) != 1 or len(sizes) != 1 or len(turning) != 1 or sizes[0].value not in _SIZES:
+        return None
+    side = sides.pop()
+    if side not in (*SIDES, *_MIRRORING):
+        return None
+    stays = turning == {side == "left"} and side in SIDES
+    steps = list(last.plan.steps) if stays else [flipped(step) for step in last.plan.steps]
+    roles = {atom.value for atom in said if atom.value in _SIZED}
+    is_side = sizes[0].value == "length" and _is_figure(steps)
+    return resized(steps, Edit(amounts=sizes, roles=roles or ({"side"} if is_side else set())))
 
 
 def figure_asked(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
