@@ -28,6 +28,10 @@ def _last(said: str) -> str:
         ("turn left 90 / half of that back", "turn right 45 deg"),
         ("forward 1 m / forward 50 cm / go back as far as you've gone altogether", "drive 1.5 m back"),
         ("前进一米 / 停两秒再前进一米 / 刚才一共走了多远，就退多远", "drive 2 m back"),
+        ("forward 2 m, turn around, then drive back 1 m", "drive 2 m; turn left 180 deg; drive 1 m"),
+        ("turn right 180 degrees and go back half a metre", "turn right 180 deg; drive 0.5 m"),
+        ("dreh dich um und fahr einen Meter zurück", "turn left 180 deg; drive 1 m"),
+        ("turn around and reverse 1 m", "turn left 180 deg; drive 1 m back"),
         ("forward 1 m / turn left 90 / go back as far as you've gone altogether", "unclear"),
     ],
 )
