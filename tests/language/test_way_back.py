@@ -7,7 +7,6 @@ import pytest
 from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import conversation
 
-
 LEFT_40 = "; ".join(["drive 0.4 m; turn left 90 deg"] * 4)
 
 
@@ -28,6 +27,9 @@ def _last(said: str) -> str:
         ("turn left 90 / half of that back", "turn right 45 deg"),
         ("forward 1 m / forward 50 cm / go back as far as you've gone altogether", "drive 1.5 m back"),
         ("前进一米 / 停两秒再前进一米 / 刚才一共走了多远，就退多远", "drive 2 m back"),
+        ("forward 2 m / drive back to the start in reverse", "drive 2 m back"),
+        ("前进两米 / 倒着回到起点", "drive 2 m back"),
+        ("forward 2 m / back to the start", "go to 0 0"),
         ("forward 2 m, turn around, then drive back 1 m", "drive 2 m; turn left 180 deg; drive 1 m"),
         ("turn right 180 degrees and go back half a metre", "turn right 180 deg; drive 0.5 m"),
         ("dreh dich um und fahr einen Meter zurück", "turn left 180 deg; drive 1 m"),

@@ -96,6 +96,16 @@ def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | No
     ]
 
 
+def reversed_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`Reverse to the start`, which lies straight behind: backwards all the way; None where it only says `back`."""
+    says_only_back = any(text.split()[-1:] == ["back"] for text in whole.texts)
+    pose, start = context.state.pose, context.dialogue.start_pose
+    way_m, off_rad = pose.distance_to(start), wrap_angle(pose.bearing_to(start) - pose.yaw_rad)
+    if whole.direction != "back" or says_only_back or way_m <= NEAR_M or math.pi - abs(off_rad) > FAR_RAD / 4:
+        return None
+    return [Drive(way_m, direction_rad=math.pi, speed_mps=pace.speed(whole))]
+
+
 def check_leads_to_start(last: Frame, steps: Sequence[Step], context: Context) -> None:
     """`Two metres back to the start`, told in full: it must end there, where it begins or where all began.
 

@@ -6,7 +6,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.core.geometry import wrap_angle
-from chatrobot.language.back import driven_back, only_slid, only_turned, part_way_back, slid_back
+from chatrobot.language.back import (
+    driven_back,
+    only_slid,
+    only_turned,
+    part_way_back,
+    reversed_to_start,
+    slid_back,
+)
 from chatrobot.language.changes import a_bit_of, changed, is_change, steps_named
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
@@ -87,7 +94,8 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
         raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
     if ("to_start" not in flags and only_turned(context)) or only_slid(context):
         return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
-    return [Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))]
+    go = Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))
+    return reversed_to_start(whole, context, pace) or [go]
 
 
 def _goes_to_start(whole: Frame) -> bool:
