@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import Conversation, conversation
 
 
@@ -13,10 +14,45 @@ from tests.language.dialogue_runner import Conversation, conversation
         "你往左手边看，那是我家",
         "路在脚下，往前走吧朋友们",
         "头往左歪，我给你剪头发",
+        "物理题:小车以v=0.4m/s向前匀速行驶t=5s,求路程。。。懒得算了你直接开给我看吧",
+        "Show the children what a triangle looks like, all three sides the same, eighty centimetres each.",
         "I've a bet on wi Senga here that ye can birl on the spot. Three times the hale way roon, clockwise, show her.",
     ],
 )
 def test_it_is_not_done_unasked(said: str) -> None:
+    assert Conversation().say(said).plan is None
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("turn left and forward 1 m", "turn left 90 deg; drive 1 m"),
+        ("could you turn right?", "turn right 90 deg"),
+        ("forward one meter and then turn right?", "drive 1 m; turn right 90 deg"),
+        ("drive left and forward 1 m", "drive 1 m toward 45 deg"),
+        ("back! back!", "drive 0.5 m back; drive 0.5 m back"),
+        ("forward 3 m. Then undo 1 m of it", "drive 3 m; drive 1 m back"),
+        ("take 5 seconds to turn left", "turn left 90 deg at 18 deg/s"),
+    ],
+)
+def test_a_side_or_a_back_is_that_of_its_verb(said: str, plan: str) -> None:
+    found = Conversation().say(said).plan
+    assert found is not None
+    assert format_plan(found).replace("\n", "; ") == plan
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "come here",
+        "get out",
+        "from now on when I say left I mean slide left",
+        "forward 1 m and slide left 1 m, without the slide",
+        "forward 1 m then left, actually skip the left",
+        "go 50 cm towards A",
+    ],
+)
+def test_what_it_cannot_know_or_leave_out_moves_nothing(said: str) -> None:
     assert Conversation().say(said).plan is None
 
 
@@ -65,6 +101,16 @@ def test_what_is_not_accounted_for_is_asked_about(said: str, outcome: str) -> No
             1,
         ),
         ("前进1m，左转60°，再前进0.5m / 从当前位姿再跑一遍，第二步改成右转60°", 3),
+        ("drive 2 m at 0.2 m/s / That was rather slow. Even I am quicker, and I have a stick.", 0),
+        ("strafe right 40 cm / And same amount diagonally also, front-left at 45 deg", 0),
+        ("turn left 90 and forward 1 m / undo the drive", 0),
+        ("go forward 1 m / go forward 2 m / undo the second one", 0),
+        ("slide left 30 cm, turn right 30, slide left 30 cm / again but with the turn the other way", 0),
+        ("forward 1 m / the same to the left and to the right", 0),
+        ("forward 2 m / left double that / back by the same plus 10 cm", 0),
+        ("spin around twice / spin the other way once", 1),
+        ("square 50 cm, stopping 1 second at each corner / again without stopping", 8),
+        ("zap means turn left 90 and forward 20 cm / zap but right", 2),
         ("drive 1 m / drive 0.5 m back / Genau so, danke schön, da freut sich der Herr Krause.", 0),
         ("umdrehen / zwei Meter vor / Jetzt bitte wieder dahin, wo Sie ganz am Anfang gestanden sind.", 1),
     ],

@@ -60,3 +60,29 @@ def test_a_size_is_no_count(said: str, squares: int) -> None:
 )
 def test_a_place_is_named_in_any_order_of_words(said: str, name: str) -> None:
     assert Conversation().say(said).remember_place == name
+
+
+@pytest.mark.parametrize(
+    ("said", "duration_s"),
+    [
+        ("turn left at 20 degrees per second for four and a half seconds", 4.5),
+        ("drive at 20 cm per second for two and a half seconds", 2.5),
+    ],
+)
+def test_a_half_behind_a_number_belongs_to_it_behind_another_unit_too(said: str, duration_s: float) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is not None
+    assert [getattr(step, "duration_s", None) for step in plan.steps] == [duration_s]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Circle time! Radius 50 cm, counterclockwise.",
+        "circle of 50 cm radius, counterclockwise, and finish facing the way you're facing now",
+    ],
+)
+def test_a_figure_that_is_called_out_is_drawn_whole(said: str) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is not None
+    assert [getattr(step, "angle_rad", None) for step in plan.steps] == [pytest.approx(2 * math.pi)]

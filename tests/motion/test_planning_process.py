@@ -93,7 +93,10 @@ def test_it_goes_after_all_that_drives() -> None:
         if "chatrobot.motion.planning_process" in child.cmdline()
     ]
     niceness = max(NICENESS, os.getpriority(os.PRIO_PROCESS, 0))
-    assert os.getpriority(os.PRIO_PROCESS, found) == niceness
+    ends_s = time.monotonic() + 10.0
+    while os.getpriority(os.PRIO_PROCESS, found) != niceness:  # it ranks itself, as soon as it runs
+        assert time.monotonic() < ends_s
+        time.sleep(0.01)
     ranked = Path(f"/proc/{found}/autogroup")
     assert not ranked.exists() or ranked.read_text().endswith(f"nice {niceness}\n")
 

@@ -27,6 +27,7 @@ SURE_ORDER = 1.0
 _MEASURES = frozenset({"UNIT", "COUNTER"})
 _AMOUNTS = _MEASURES | {"NUMBER", "SCALE", "FRACTION"}
 _DOES = frozenset({"VERB", "DIR"})
+_TELLING = frozenset({"verdict", "mine"})
 _LOOKS_BACK = 3
 SCALE = 24.0
 """A weight of one is this much in a byte."""
@@ -86,6 +87,14 @@ def talk_in(reads: Sequence[Read], *, doubtful: bool = False) -> list[Read]:
     ):  # `once more, only to the right this time`
         talk = [read for read in talk if not _does(read)]
     return talk if len(talk) < len(reads) and order_log_odds(reads) >= ORDER else []
+
+
+def tells_of_pace(reads: Sequence[Read]) -> bool:
+    """`That was rather slow. Even I am quicker.`: whether all words of motion only tell how fast somebody is or was."""
+    moving = [read.clause.signs for read in reads if read.clause.moves]
+    labels = {sign.label for signs in moving for sign in signs if sign.moves}
+    told = all(any(sign.label in _TELLING for sign in signs) for signs in moving)
+    return bool(labels & {"PACE", "complaint"}) and labels <= {"PACE", "complaint", "FLAG"} and told
 
 
 def without(text: str, reads: Sequence[Read], left_out: Sequence[Read]) -> str:

@@ -25,11 +25,15 @@ _USUAL = (
 )
 
 
-def is_bare_order(plan: Plan | None, kept: Sequence[Read]) -> bool:
-    """Whether all that a plan does is as far as usual, and no clause that was read tells how far."""
+def is_bare_order(plan: Plan | None, kept: Sequence[Read], left_out: Sequence[Read]) -> bool:
+    """Whether all that a plan does is as far as usual, and no clause that was read tells how far.
+
+    What is surely ordered is none, unless an amount was left out: `v=0.4 m/s, t=5 s. Just drive it`.
+    """
     steps = plan.steps if plan is not None else ()
     usual = bool(steps) and all(step in _USUAL or isinstance(step, Wait) for step in steps)
-    return usual and order_log_odds(kept) < SURE_BARE and not any(map(_tells_size, kept))
+    is_sure = order_log_odds(kept) >= SURE_BARE and not any(has_amount(read.clause) for read in left_out)
+    return usual and not is_sure and not any(map(_tells_size, kept))
 
 
 def _tells_size(read: Read) -> bool:

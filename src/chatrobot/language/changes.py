@@ -114,6 +114,9 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         name = "faster" if re.search("速|快|慢", fold.text) else "scale"
         whole.q[name] = quantity(name, fold.number, fold.text)
     before, whole = _mirrored(before, _round_other_way(before, whole))
+    if whole.direction in SIDES and any(isinstance(step, (Turn, Arc)) for step in _leaves(before)):
+        whole = whole.copy()  # `the same but right`, of a turn and a drive: of the turn
+        whole.rot, whole.direction = whole.rot or whole.direction, ""
     if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in _leaves(before)):
         raise Unclear("nothing_before", whole.text)  # `the turn again`, of what drove as well
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
@@ -130,6 +133,8 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     if factor != 1.0 and steps == list(before):  # `half the angle`, of what never turned
         raise Unclear("nothing_before", whole.text)
     count = whole.q.get("times")
+    if count is not None and count.number == 1.0 and len(set(steps)) == 1:
+        return steps[:1]  # `the other way once`, of what was done twice
     if count is not None:
         return steps * whole_number(count.number, count.text)
     sizes = [whole.q[name] for name in ("length", "angle", "turns", "time") if name in whole.q]

@@ -217,6 +217,11 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
     if whole.verb == "undo" and "same_way" in whole.flags:
         return all_taken_back(context, profile)
     if whole.verb == "undo":
+        last, named = context.dialogue.last_motion, [each for each in frames[1:] if each.verb in GO]
+        if named and last is not None and len(steps_of(last)) > 1:
+            raise Unclear(
+                "unclear_motion", f"{whole.text} {named[0].text}"
+            )  # `undo the drive`, of several steps
         return undone(whole, context, profile, turning=any(frame.verb == "turn" for frame in frames[1:]))
     if {"redo", "restore"} & whole.flags:
         again = redone(context, profile)

@@ -83,6 +83,9 @@ def check_heeded(
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
     _check_clauses(atoms, steps, read)
+    each = next((atom for atom in atoms if (atom.kind, atom.value) == ("flag", "each")), None)
+    if each is not None and [*map(type, steps)] == [Drive]:  # `80 cm each`: of what?
+        raise Unclear("unclear_motion", each.text)
     _check_no_turn(atoms, steps)
     _check_sides(atoms, steps)
     _check_flags(atoms, steps, read, follows=follows)

@@ -15,6 +15,7 @@ from chatrobot.language.acts import (
     order_log_odds,
     read_acts,
     talk_in,
+    tells_of_pace,
     without,
     without_requests,
 )
@@ -169,13 +170,16 @@ class OfflineInterpreter:
         names, plain, unit = names_in(reading.context), normalise(text), unit_after(reading.context)
         if is_choice(plain, reading.language):
             return None  # `left or right, 30 cm`: without that clause it would be another order
-        pointed = beside_reference(plain, read_acts(plain, names), read, read_anew)
+        reads = read_acts(plain, names)
+        if tells_of_pace(reads):
+            return None
+        pointed = beside_reference(plain, reads, read, read_anew)
         if pointed is not None:
             return pointed
         found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
         found = found or of_islands(plain, problem, reading)
         is_offer = found is not None and found.plan is None
-        return None if is_offer and calls_somebody(read_acts(plain, names), reading.language) else found
+        return None if is_offer and calls_somebody(reads, reading.language) else found
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""
@@ -222,7 +226,7 @@ class OfflineInterpreter:
                 # What a request for a program tells in full is its own reader's.
                 bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 bears = bears and not read_program_request(rest)
-                bears |= is_bare_order(meant.plan, [read for read in reads if read not in talk])
+                bears |= is_bare_order(meant.plan, [read for read in reads if read not in talk], talk)
                 return (proposed(meant, language) or meant) if bears else meant
             except Unclear as problem:
                 missing = problem if problem.code in _OF_AN_ORDER and apart else None
@@ -293,7 +297,7 @@ class OfflineInterpreter:
         if meant.corrects and context.dialogue.turns and context.dialogue.turns[-1].moved:
             # `Oops, I meant left`: it is said of what was done, as is `too far by half a metre`, which only tells.
             return meant if odds >= ORDER or says_meant(plain) else proposed(meant, language) or meant
-        if odds < MAYBE_ORDER:
+        if odds < MAYBE_ORDER or tells_of_pace(reads):
             raise Unclear("nothing_to_do")
         talk = talk_in(reads, doubtful=True)
         rest = without(plain, reads, talk)

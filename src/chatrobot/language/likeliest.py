@@ -113,7 +113,7 @@ def likeliest(
     except Unclear as stumbled:
         found = search.proposal(rest, stumbled, parts)
         return found or (search.proposal(plain, problem) if gone and not problem.refused else None)
-    is_sure &= bool(pointing) or not is_bare_order(meant.plan, kept)
+    is_sure &= bool(pointing) or not is_bare_order(meant.plan, kept, gone)
     return meant if is_sure else proposed(meant, language, parts)
 
 

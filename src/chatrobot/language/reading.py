@@ -35,6 +35,7 @@ from chatrobot.language.script import Memory
 from chatrobot.language.standing import by_places, facing, stood
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom, tokenise
+from chatrobot.language.turned_sides import with_turned_sides
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import Walked
 from chatrobot.language.writing import write
@@ -81,7 +82,7 @@ class Reading:
         atoms = tokenise(plain, lexicon(), names, by_ear=self.by_ear)
         if {atom.kind for atom in atoms} - SILENT > {"defined"}:
             atoms = tokenise(plain, lexicon(), without_light_words(names), by_ear=self.by_ear)
-        atoms = around_places(atoms)
+        atoms = around_places(with_turned_sides(atoms))
         atoms = by_places(with_denied_motions(read_quantities(atoms)))
         atoms = without_restated(in_shares(with_multiples(with_slips(with_rates(atoms)))))
         atoms = _done_as_taught(back_to_places(with_headings(atoms, self.facing_rad)))

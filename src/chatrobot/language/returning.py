@@ -57,6 +57,8 @@ def _leads_to_a_place(atoms: Sequence[Atom], i: int) -> bool:
 
 def goes_back(frame: Frame, state: State) -> bool:
     """`…, then back`: the way back, where there is a way to go back."""
+    if state.last == "drive" and state.direction == "back":
+        return False  # `back! back!`: on, and not to where it was
     sideways = bool(state.steps) and state.last == "drive" and state.direction in SIDES
     verbs = ("", "go", "slide", "shift") if sideways else ("", "go")
     bare = frame.verb in verbs and frame.direction == "back" and "bit" not in frame.flags

@@ -95,6 +95,8 @@ def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
     for frame in unsaid:
         if "again" in frame.flags and frame.q:  # `the same move forward again at double the speed`
             raise Unclear("how_far", frame.text)
+        if any("same_amount" in other.flags for other in frames):
+            raise Unclear("how_far", frame.text)  # `the same amount diagonally, front-left at 45 deg`
     if any(frame.has_extent for frame in frames):
         for frame in unsaid:
             if frame.joined not in ("then", "and"):
