@@ -13,6 +13,7 @@ from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.plan.text import parse_plan
 from chatrobot.robots.load import load_profile
+from tests.language.dialogue_runner import conversation
 from tests.language.profiles import MECANUM
 
 DROVE = TurnRecord(
@@ -108,3 +109,16 @@ def test_a_question_that_nobody_can_answer_gets_no_answer_to_another() -> None:
 
 def test_how_long_it_took_is_the_time_that_was_measured() -> None:
     assert "3.5 s" in told("how long was that?", DROVE)
+
+
+@pytest.mark.parametrize(
+    ("turns", "reply"),
+    [
+        (("forward 1 m at 0.15 m/s", "how fast was that?"), "At most 0.15 m/s."),
+        (("forward 1 m", "how fast did you go?"), "At most 0.3 m/s."),
+        (("以每秒0.2米前进一米", "刚才多快？"), "最快 0.2 米/秒。"),
+        (("1 m vor mit 0,2 m/s", "wie schnell war das?"), "Höchstens 0.2 m/s."),
+    ],
+)
+def test_how_fast_it_went_is_told_of_the_motion_before(turns: tuple[str, str], reply: str) -> None:
+    assert conversation(turns[0]).say(turns[1]).reply == reply

@@ -12,6 +12,7 @@ from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import by_language, describe_plan, say
+from chatrobot.plan.steps import Arc, Drive, Go
 from chatrobot.robots.profile import RobotProfile
 
 _LONGEST_COURTESY = 60
@@ -151,6 +152,8 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
     if topic == "last" and not context.dialogue.turns:
         return say(language, "answer_nothing_done")
     values = _values(language, context, profile)
+    if topic == "past_speed" and "last_speed_mps" not in values:
+        topic = "speed"
     known = {"battery": "percent", "obstacle": "distance_m", "duration": "duration_s", "sight": "range_m"}
     if topic in known and known[topic] not in values:
         return say(language, f"answer_{topic}_unknown")
@@ -194,6 +197,7 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
         "percent": state.battery_percent,
         "distance_m": state.obstacle_m,
         "duration_s": last.duration_s if last is not None else None,
+        "last_speed_mps": _last_speed_mps(context, profile),
         "length_m": high_x_m - low_x_m,
         "width_m": high_y_m - low_y_m,
         "most_m": profile.safety.budget.distance_m,
@@ -201,6 +205,15 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
         "range_m": profile.lidar.max_range_m if profile.lidar is not None else None,
     }
     return {name: value for name, value in told.items() if value is not None}
+
+
+def _last_speed_mps(context: Context, profile: RobotProfile) -> float | None:
+    """The fastest that the last motion was to go, where it drove."""
+    last = context.dialogue.last_motion
+    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    usual_mps = context.dialogue.usual.speed_mps or profile.defaults.speed_mps
+    speeds = [step.speed_mps or usual_mps for step in steps if isinstance(step, (Drive, Arc, Go))]
+    return max(speeds, default=None)
 
 
 def _told_of(topic: str, language: str, dialogue: Dialogue) -> str:
