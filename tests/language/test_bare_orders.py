@@ -50,6 +50,8 @@ def test_a_side_or_a_back_is_that_of_its_verb(said: str, plan: str) -> None:
         "forward 1 m and slide left 1 m, without the slide",
         "forward 1 m then left, actually skip the left",
         "go 50 cm towards A",
+        "yes, but only 60 cm",
+        "go the rest of the way",
     ],
 )
 def test_what_it_cannot_know_or_leave_out_moves_nothing(said: str) -> None:
@@ -109,6 +111,10 @@ def test_what_is_not_accounted_for_is_asked_about(said: str, outcome: str) -> No
         ("forward 1 m / the same to the left and to the right", 0),
         ("forward 2 m / left double that / back by the same plus 10 cm", 0),
         ("spin around twice / spin the other way once", 1),
+        (
+            "this is the shop / forward 2 m / this is the garage / go from the shop to the garage and back twice",
+            0,
+        ),
         ("square 50 cm, stopping 1 second at each corner / again without stopping", 8),
         ("zap means turn left 90 and forward 20 cm / zap but right", 2),
         ("drive 1 m / drive 0.5 m back / Genau so, danke schön, da freut sich der Herr Krause.", 0),

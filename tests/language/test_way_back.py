@@ -7,6 +7,7 @@ import pytest
 from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import conversation
 
+SHOP = "this is the shop / forward 2 m / this is the garage / "
 LEFT_40 = "; ".join(["drive 0.4 m; turn left 90 deg"] * 4)
 
 
@@ -28,6 +29,14 @@ def _last(said: str) -> str:
         ("forward 1 m / forward 50 cm / go back as far as you've gone altogether", "drive 1.5 m back"),
         ("前进一米 / 停两秒再前进一米 / 刚才一共走了多远，就退多远", "drive 2 m back"),
         ("forward 2 m / drive back to the start in reverse", "drive 2 m back"),
+        (
+            SHOP + "go from the shop to the garage and back",
+            'go to 0 0 named "shop"; go to 2 0 named "garage"; go to 0 0 named "shop"',
+        ),
+        (
+            "drive 3 m slowly, then back 1 m / the same in the other order",
+            "drive 1 m back; drive 3 m at 0.15 m/s",
+        ),
         ("前进两米 / 倒着回到起点", "drive 2 m back"),
         ("forward 2 m / back to the start", "go to 0 0"),
         ("forward 2 m, turn around, then drive back 1 m", "drive 2 m; turn left 180 deg; drive 1 m"),
