@@ -163,6 +163,7 @@ def test_an_endless_stream_is_refused(rig: SimulatedRig) -> None:
     assert end.reason.code == "plan_too_large"
 
 
+@pytest.mark.realtime
 def test_a_stream_runs_in_motions_own_process_too(tmp_path: Path) -> None:
     rig = ProcessRig(tmp_path)
     try:
