@@ -116,6 +116,7 @@ def test_how_long_it_took_is_the_time_that_was_measured() -> None:
     [
         (("forward 1 m at 0.15 m/s", "how fast was that?"), "At most 0.15 m/s."),
         (("forward 1 m", "how fast did you go?"), "At most 0.3 m/s."),
+        (("turn left at 20 degrees per second", "how fast was that?"), "At most 20° a second."),
         (("以每秒0.2米前进一米", "刚才多快？"), "最快 0.2 米/秒。"),
         (("1 m vor mit 0,2 m/s", "wie schnell war das?"), "Höchstens 0.2 m/s."),
     ],

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import Conversation
+from tests.language.test_usual import done
 
 ZIGZAG = "turn left 45 deg; drive 0.5 m; turn right 90 deg; drive 0.5 m"
-
-
-def _plan(said: str) -> str:
-    meant = Conversation().say(said)
-    return format_plan(meant.plan).replace("\n", "; ") if meant.plan is not None else meant.outcome
 
 
 @pytest.mark.parametrize(
@@ -36,7 +31,7 @@ def _plan(said: str) -> str:
     ],
 )
 def test_only_the_moves_behind_the_name_are_driven(said: str, plan: str) -> None:
-    assert _plan(said) == plan
+    assert done(said) == plan
 
 
 @pytest.mark.parametrize(

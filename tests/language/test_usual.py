@@ -96,3 +96,7 @@ def test_what_means_nothing_by_itself_is_done_once_it_was_taught(taught: str, or
 
 def test_a_correction_of_another_kind_of_motion_is_no_start_of_a_total() -> None:
     assert done("turn left 90", "no, I meant forward 1 m", "no, 2 m") == "unclear"
+
+
+def test_the_usual_speed_is_set_back_by_a_word() -> None:
+    assert done("把速度调到每秒0.2米", "恢复默认", "前进一米") in ("drive 1 m", "drive 1 m at 0.3 m/s")

@@ -89,6 +89,11 @@ def test_an_edit_that_cannot_be_read_stays_open_and_the_version_before_waits(pag
     editor.fill("drive 0.2 m")
     page.get_by_role("button", name="Rehearse and run").click()
     rig.session.wait_for("say_edited_plan", "drive 0.2 m", PLAN)
+    rig.tell(Interpreted(3, "offline", "drive 0.2 m", ""))
+    rig.tell(Notice(4, Reason("edit_unreadable", {"problem": "another person's"})))
+    rig.tell(Interpreted(5, "offline", "wait 1 s\nwait 2 s", ""))
+    expect(page.locator("#plan-lines li")).to_have_count(2)  # so the page has heard what came before it
+    expect(editor).to_be_hidden()
 
 
 def test_what_an_agent_asks_for_is_seen_before_the_yes_and_its_end_after(page: Page, rig: WebRig) -> None:

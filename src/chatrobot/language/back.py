@@ -1,4 +1,4 @@
-"""The way back from one motion that is the last: `then slide back`, `and back`."""
+"""The way back: from one motion that is the last (`then slide back`, `and back`), or to the start."""
 
 from __future__ import annotations
 
@@ -83,11 +83,9 @@ def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | No
     part, dialogue = whole.q.get("number"), context.dialogue
     if part is None or not 0.0 < part.number < 1.0 or "to_start" not in whole.flags or len(whole.q) > 1:
         return None
-    pose, start, last = context.state.pose, dialogue.start_pose, dialogue.last_motion
-    way_m = pose.distance_to(start)
+    last, (way_m, off_rad) = dialogue.last_motion, _way_to_start(context)
     if last is not None and last.start_pose.distance_to(last.end_pose) > NEAR_M:
-        way_m = way_m if last.start_pose.distance_to(start) <= NEAR_M else 0.0
-    off_rad = wrap_angle(pose.bearing_to(start) - pose.yaw_rad)
+        way_m = way_m if last.start_pose.distance_to(dialogue.start_pose) <= NEAR_M else 0.0
     is_behind = abs(off_rad) > math.pi / 2
     if way_m <= NEAR_M or min(abs(off_rad), math.pi - abs(off_rad)) > FAR_RAD / 4:
         raise Unclear("how_far", whole.text)
@@ -99,11 +97,16 @@ def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | No
 def reversed_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     """`Reverse to the start`, which lies straight behind: backwards all the way; None where it only says `back`."""
     says_only_back = any(text.split()[-1:] == ["back"] for text in whole.texts)
-    pose, start = context.state.pose, context.dialogue.start_pose
-    way_m, off_rad = pose.distance_to(start), wrap_angle(pose.bearing_to(start) - pose.yaw_rad)
+    way_m, off_rad = _way_to_start(context)
     if whole.direction != "back" or says_only_back or way_m <= NEAR_M or math.pi - abs(off_rad) > FAR_RAD / 4:
         return None
     return [Drive(way_m, direction_rad=math.pi, speed_mps=pace.speed(whole))]
+
+
+def _way_to_start(context: Context) -> tuple[float, float]:
+    """How far the start is, metres, and where it lies from the robot's front, radians."""
+    pose, start = context.state.pose, context.dialogue.start_pose
+    return pose.distance_to(start), wrap_angle(pose.bearing_to(start) - pose.yaw_rad)
 
 
 def check_leads_to_start(last: Frame, steps: Sequence[Step], context: Context) -> None:

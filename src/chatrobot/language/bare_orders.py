@@ -6,34 +6,36 @@ talk, one of them may have told it, or the order may be meant for somebody else:
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from chatrobot.language.acts import Read, order_log_odds
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.manner import Pace
 from chatrobot.language.set_off import has_amount
-from chatrobot.plan.steps import Drive, Plan, Turn, Wait
+from chatrobot.plan.steps import Drive, Plan, Step, Turn, Wait
 
 _SIZED = frozenset({"FRACTION", "MULTIPLE", "SCALE", "FULLTURN", "SHAPE", "FLAG", "PLACE"})
 """Labels of words that tell how much, or point at something that does."""
 SURE_BARE = 3.5
 """Clauses with higher odds of an order are one, whatever stands beside them: `the sun is out. Go forward`."""
 _ARTICLE = ("num", "article")
-_USUAL = (
-    *(Turn(math.pi / 2, left=left) for left in (True, False)),
-    *(Drive(0.5, direction_rad=angle) for angle in (0.0, math.pi, math.pi / 2, -math.pi / 2)),
-)
 
 
-def is_bare_order(plan: Plan | None, kept: Sequence[Read], left_out: Sequence[Read]) -> bool:
-    """Whether all that a plan does is as far as usual, and no clause that was read tells how far.
+def is_bare_order(plan: Plan | None, kept: Sequence[Read], left_out: Sequence[Read], pace: Pace) -> bool:
+    """Whether all that a plan does is as far as usual by `pace`, and no clause that was read tells how far.
 
     What is surely ordered is none, unless an amount was left out: `v=0.4 m/s, t=5 s. Just drive it`.
     """
     steps = plan.steps if plan is not None else ()
-    usual = bool(steps) and all(step in _USUAL or isinstance(step, Wait) for step in steps)
+    usual = bool(steps) and all(_is_usual(step, pace) for step in steps)
     is_sure = order_log_odds(kept) >= SURE_BARE and not any(has_amount(read.clause) for read in left_out)
     return usual and not is_sure and not any(map(_tells_size, kept))
+
+
+def _is_usual(step: Step, pace: Pace) -> bool:
+    if isinstance(step, Drive):
+        return step.until is None and step.distance_m == pace.distance_m
+    return isinstance(step, Wait) or (isinstance(step, Turn) and step.angle_rad == pace.turn_rad)
 
 
 def _tells_size(read: Read) -> bool:

@@ -83,9 +83,7 @@ def check_heeded(
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
     _check_clauses(atoms, steps, read)
-    each = next((atom for atom in atoms if (atom.kind, atom.value) == ("flag", "each")), None)
-    if each is not None and [*map(type, steps)] == [Drive]:  # `80 cm each`: of what?
-        raise Unclear("unclear_motion", each.text)
+    _check_each(atoms, steps)
     _check_no_turn(atoms, steps)
     _check_sides(atoms, steps)
     _check_flags(atoms, steps, read, follows=follows)
@@ -142,6 +140,13 @@ def _is_only_named(inside: Sequence[Atom], atoms: Sequence[Atom], others: Sequen
         return False
     doing |= _ABOUT if doing & _ABOUT else set()
     return not any((a.kind == "verb" and a.value in doing) or a.value in _RETURNING for a in others)
+
+
+def _check_each(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
+    """Ask back where `80 cm each` is one drive: each of what?"""
+    each = next((atom for atom in atoms if (atom.kind, atom.value) == ("flag", "each")), None)
+    if each is not None and [*map(type, steps)] == [Drive]:
+        raise Unclear("unclear_motion", each.text)
 
 
 def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:

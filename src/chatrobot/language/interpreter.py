@@ -37,7 +37,6 @@ from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.islands import of_islands
-from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import with_tails_parted
 from chatrobot.language.likeliest import likeliest, proposed
 from chatrobot.language.meant import asked_by_remark, says_meant
@@ -167,16 +166,16 @@ class OfflineInterpreter:
             dialogue = replace(reading.context.dialogue, turns=(), pending="")
             return read(part, replace(reading.context, dialogue=dialogue))
 
-        names, plain, unit = names_in(reading.context), normalise(text), unit_after(reading.context)
+        plain = normalise(text)
         if is_choice(plain, reading.language):
             return None  # `left or right, 30 cm`: without that clause it would be another order
-        reads = read_acts(plain, names)
+        reads = read_acts(plain, names_in(reading.context))
         if tells_of_pace(reads):
             return None
         pointed = beside_reference(plain, reads, read, read_anew)
         if pointed is not None:
             return pointed
-        found = likeliest(plain, names, reading.language, problem, read, read_anew, unit)
+        found = likeliest(plain, problem, reading, read, read_anew)
         found = found or of_islands(plain, problem, reading)
         is_offer = found is not None and found.plan is None
         return None if is_offer and calls_somebody(reads, reading.language) else found
@@ -226,7 +225,11 @@ class OfflineInterpreter:
                 # What a request for a program tells in full is its own reader's.
                 bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 bears = bears and not read_program_request(rest)
-                bears |= is_bare_order(meant.plan, [read for read in reads if read not in talk], talk)
+                kept, pace = (
+                    [read for read in reads if read not in talk],
+                    Reading(language, context, self._profile).pace,
+                )
+                bears |= is_bare_order(meant.plan, kept, talk, pace)
                 return (proposed(meant, language) or meant) if bears else meant
             except Unclear as problem:
                 missing = problem if problem.code in _OF_AN_ORDER and apart else None

@@ -30,10 +30,13 @@ from chatrobot.language.beside import (
     refers,
 )
 from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import NO_ORDER, Span, leads_amount, may_order, place_of, told_spans
+from chatrobot.language.names import names_in
 from chatrobot.language.numbers import FAR_M
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.pointing import may_change
+from chatrobot.language.reading import Reading
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.strange_words import is_bound, is_complete, strange_spans
@@ -64,36 +67,45 @@ Reader = Callable[[str], Interpretation]
 
 
 def likeliest(
-    plain: str,
-    names: Names,
-    language: LanguageCode,
-    problem: Unclear,
-    read: Reader,
-    read_anew: Reader,
-    unit: str = "",
+    plain: str, problem: Unclear, reading: Reading, read: Reader, read_anew: Reader
 ) -> Interpretation | None:
     """What a normalised text most likely means, where `read` raised `problem`; None where it orders nothing.
 
     Either a plan, or a question that proposes one. `read_anew` reads as if nothing had been said before.
-    `unit` is the one that a bare number has after the motion before.
     """
+    names, language = names_in(reading.context), reading.language
     reads = read_acts(plain, names)
-    best = odds_beside_asides(plain, reads, names)
+    if len(reads) > MOST_CLAUSES:
+        return None
     # A question that a fact answers is not passed over for a motion, nor is the motion for it.
     asks = problem.code == "question_beside"
     apart = [] if asks else set_off(plain, reads, language, names)
-    best = max(best, odds_without(plain, reads, apart, names))
     pointing = [read for read in reads if refers(read.clause)]  # `undo that, I forgot to film it`
-    if pointing and not is_reported(reads, pointing):
-        best = max(best, ORDER)
-    if len(reads) > MOST_CLAUSES:
-        return None
+    best = max(odds_beside_asides(plain, reads, names), odds_without(plain, reads, apart, names))
+    best = max(best, ORDER) if pointing and not is_reported(reads, pointing) else best
     is_closed = problem.refused or problem.code not in STUMBLED
     search = _Search(names, language, read, read_anew, best, asks, is_closed)
     if best < ORDER:
         return search.proposal(plain, problem) if problem.code in STUMBLED else None
     if problem.code == "no_unit":
-        return _with_unit(plain, problem.part, language, read, unit)
+        return _with_unit(plain, problem.part, language, read, unit_after(reading.context))
+    gone, is_sure = _talk(plain, problem, reads, apart, best)
+    kept = [read for read in reads if read not in gone]
+    parts = tuple(_said(plain, read).strip(" ,.;:!") for read in gone)
+    try:
+        meant = read(rest := _kept(plain, kept))
+    except Unclear as stumbled:
+        found = search.proposal(rest, stumbled, parts)
+        return found or (search.proposal(plain, problem) if gone and not problem.refused else None)
+    is_sure &= bool(pointing) or not is_bare_order(meant.plan, kept, gone, reading.pace)
+    return meant if is_sure else proposed(meant, language, parts)
+
+
+def _talk(
+    plain: str, problem: Unclear, reads: Sequence[Read], apart: Sequence[Read], best: float
+) -> tuple[list[Read], bool]:
+    """The clauses that are passed over as talk, and whether the order beside them is surely meant without them."""
+    asks = problem.code == "question_beside"
     odds = {} if asks else asides(reads)
     told = [
         read
@@ -102,19 +114,11 @@ def likeliest(
     ]
     talk = [*apart, *told, *([] if asks else talk_in(reads))]
     gone = [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]
+    doubtful = [read for read in gone if read not in apart]
     is_sure = bool(apart) or not problem.refused or _is_clearly_told(plain, problem, told, odds)
-    is_sure &= not any_may_bear(reads, [read for read in gone if read not in apart])
-    is_sure &= not (pointing and any(may_change(read, odds) for read in gone if read not in apart))
-    kept = [read for read in reads if read not in gone]
-    rest = _kept(plain, kept)
-    parts = tuple(_said(plain, read).strip(" ,.;:!") for read in gone)
-    try:
-        meant = read(rest)
-    except Unclear as stumbled:
-        found = search.proposal(rest, stumbled, parts)
-        return found or (search.proposal(plain, problem) if gone and not problem.refused else None)
-    is_sure &= bool(pointing) or not is_bare_order(meant.plan, kept, gone)
-    return meant if is_sure else proposed(meant, language, parts)
+    points = any(refers(read.clause) for read in reads)
+    bears = any_may_bear(reads, doubtful) or (points and any(may_change(read, odds) for read in doubtful))
+    return gone, is_sure and not bears
 
 
 @dataclass

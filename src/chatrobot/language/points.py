@@ -19,7 +19,7 @@ _POINT = re.compile(
     rf"|(?<![a-z\d])x {_NAMED}[ ,，]+(?:[a-z]{{1,3}} )?y {_NAMED}(?![\d.])",
     re.IGNORECASE,
 )
-_WRITTEN = re.compile(rf"\({_NUMBER}, {_NUMBER}\)")
+_WRITTEN = re.compile(rf"\({_NUMBER}, {_NUMBER}(?:, {_NUMBER})?\)")
 _LETTERS = str.maketrans("0123456789.-+,e", "abcdefghijkmpqu", "() ")
 _TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
 
@@ -41,8 +41,8 @@ def with_points(text: str, context: Context) -> tuple[str, Context]:
     out, at = "", 0
     for found in _POINT.finditer(text):
         x_m, y_m = (_number(number) for number in found.groups() if number is not None)
-        name = f"({x_m:g}, {y_m:g})"
         lead, (heading_deg, end, its_heading) = _lead(text[at : found.start()]), _heading(text, found.end())
+        name = f"({x_m:g}, {y_m:g}, {heading_deg:g})" if its_heading else f"({x_m:g}, {y_m:g})"
         places[name] = Place(Pose(x_m, y_m, math.radians(heading_deg)))
         out += f"{lead} {word_of(name)} {its_heading}"
         at = end

@@ -12,7 +12,7 @@ from chatrobot.core.reason import fixed
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import by_language, describe_plan, say
-from chatrobot.plan.steps import Arc, Drive, Go
+from chatrobot.plan.steps import Arc, Drive, Go, Turn
 from chatrobot.robots.profile import RobotProfile
 
 _LONGEST_COURTESY = 60
@@ -153,7 +153,7 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
         return say(language, "answer_nothing_done")
     values = _values(language, context, profile)
     if topic == "past_speed" and "last_speed_mps" not in values:
-        topic = "speed"
+        topic = "past_rate" if "last_rate_degps" in values else "speed"
     known = {"battery": "percent", "obstacle": "distance_m", "duration": "duration_s", "sight": "range_m"}
     if topic in known and known[topic] not in values:
         return say(language, f"answer_{topic}_unknown")
@@ -197,7 +197,7 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
         "percent": state.battery_percent,
         "distance_m": state.obstacle_m,
         "duration_s": last.duration_s if last is not None else None,
-        "last_speed_mps": _last_speed_mps(context, profile),
+        **_last_speeds(context, profile),
         "length_m": high_x_m - low_x_m,
         "width_m": high_y_m - low_y_m,
         "most_m": profile.safety.budget.distance_m,
@@ -207,13 +207,21 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
     return {name: value for name, value in told.items() if value is not None}
 
 
-def _last_speed_mps(context: Context, profile: RobotProfile) -> float | None:
-    """The fastest that the last motion was to go, where it drove."""
-    last = context.dialogue.last_motion
+def _last_speeds(context: Context, profile: RobotProfile) -> dict[str, float]:
+    """The fastest that the last motion was to go and to turn, where it did."""
+    last, usual = context.dialogue.last_motion, context.dialogue.usual
     steps = last.plan.steps if last is not None and last.plan is not None else ()
-    usual_mps = context.dialogue.usual.speed_mps or profile.defaults.speed_mps
-    speeds = [step.speed_mps or usual_mps for step in steps if isinstance(step, (Drive, Arc, Go))]
-    return max(speeds, default=None)
+    drives = [step for step in steps if isinstance(step, (Drive, Arc, Go))]
+    turns = [step for step in steps if isinstance(step, Turn)]
+    told: dict[str, float] = {}
+    if drives:
+        told["last_speed_mps"] = max(
+            s.speed_mps or usual.speed_mps or profile.defaults.speed_mps for s in drives
+        )
+    if turns:
+        rate_radps = max(s.rate_radps or usual.rate_radps or profile.defaults.rate_radps for s in turns)
+        told["last_rate_degps"] = round(math.degrees(rate_radps), 1)
+    return told
 
 
 def _told_of(topic: str, language: str, dialogue: Dialogue) -> str:

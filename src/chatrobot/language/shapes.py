@@ -75,7 +75,9 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     if is_repetition(frame):
         return False
     if frame.joined == "then" and "length" in head.q and frame.moves and head.shape in ("square", "zigzag"):
-        return False  # `a square with 1 m sides, then forward 1 m`
+        return (
+            False  # `a square with 1 m sides, then forward 1 m`; of stairs and letters it tells the next line
+        )
     if head.shape == "plus" and ("way" in [q.role for q in frame.q.values()] or frame.verb == "return"):
         return True
     if head.shape == "spiral" and "between" in frame.flags and "angle" in frame.q:

@@ -23,30 +23,16 @@ def with_turned_sides(atoms: Sequence[Atom]) -> list[Atom]:
 
 def _parts(atom: Atom, verb: str) -> list[Atom]:
     words = atom.text.split()
-    said = [_way(word) or _conn(word) for word in words]
+    said = [part for part in map(_way_or_joint, words) if part is not None]
     is_diagonal = atom.kind == "dir" and atom.value in DIAGONALS.values()
-    if is_diagonal and verb in TURN and len(words) > 2 and all(said):
-        return [part for part in said if part is not None]
-    side = said[0] if said else None
-    if (
-        atom.kind == "filler"
-        and verb in _SIDED
-        and words[-1] == "?"
-        and side is not None
-        and side.kind == "dir"
-    ):
-        return [side, Atom("sep", "strong", "?")]
+    if is_diagonal and verb in TURN and len(words) > 2 and len(said) == len(words):
+        return said
+    asks = atom.kind == "filler" and words[-1:] == ["?"]
+    if asks and verb in _SIDED and said and said[0].text == words[0] and said[0].kind == "dir":
+        return [said[0], Atom("sep", "strong", "?")]
     return [atom]
 
 
-def _way(word: str) -> Atom | None:
-    return next(
-        (Atom("dir", value, word) for kind, value in lexicon().words.get((word,), ()) if kind == "dir"), None
-    )
-
-
-def _conn(word: str) -> Atom | None:
-    return next(
-        (Atom("conn", value, word) for kind, value in lexicon().words.get((word,), ()) if kind == "conn"),
-        None,
-    )
+def _way_or_joint(word: str) -> Atom | None:
+    meanings = lexicon().words.get((word,), ())
+    return next((Atom(kind, value, word) for kind, value in meanings if kind in ("dir", "conn")), None)

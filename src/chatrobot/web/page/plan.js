@@ -9,7 +9,7 @@ const text = byId("plan-text");
 const about = byId("plan-about");
 
 const plan = {
-  turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false, sent: "",
+  turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false, isSent: false,
 };
 
 const NUMBER_OR_QUOTED = /"(?:[^"\\]|\\.)*"|-?\d+\.\d{4,}(?:e[-+]?\d+)?/g;
@@ -85,7 +85,7 @@ function run() {
   }
   if (!send(message)) return;
   if (plan.isEdited) show(0, planText.split("\n")); // one that cannot be read can be mended
-  plan.sent = plan.isEdited ? planText : "";
+  plan.isSent = plan.isEdited;
   plan.isEdited = plan.waits = false;
   draw();
 }
@@ -102,9 +102,9 @@ function show(turn, planLines) {
 
 const heard = {
   notice(event) {
-    if (event.reason.code !== "edit_unreadable" || !plan.sent) return false;
+    if (event.reason.code !== "edit_unreadable" || !plan.isSent) return false;
     // What waits now is the version before it: its edit stays open, or a yes would mean what is not seen.
-    Object.assign(plan, { isEdited: true, edits: event.turn, sent: "" });
+    Object.assign(plan, { isEdited: true, edits: event.turn, isSent: false });
     return true;
   },
   streamed(event) {
@@ -118,7 +118,7 @@ const heard = {
     plan.isProgram = Boolean(event.program);
   },
   interpreted(event) {
-    plan.streams = false;
+    plan.streams = plan.isSent = false;
     if (!event.plan_text) return;
     const step = event.turn === plan.turn ? plan.step : 0;
     show(event.turn, event.plan_text.split("\n"));
