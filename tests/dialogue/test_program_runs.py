@@ -45,6 +45,18 @@ def test_on_a_real_robot_a_program_of_a_model_is_asked_about_and_one_of_ours_is_
     assert result.outcome == "completed"
 
 
+def test_a_program_is_asked_about_while_a_speed_limit_of_the_person_holds(house: House) -> None:
+    house.on_event = lambda event: (
+        house.session.approve(event.turn, False)
+        if isinstance(event, Rehearsed) and event.needs_approval
+        else None
+    )
+    house.do("never go faster than 0.1 m/s")
+    assert house.do("Generate a ROS 2 Python program to drive forward 25 cm").outcome != "completed"
+    assert house.all(Rehearsed)[0].needs_approval
+    house.do("no speed limit")
+
+
 def test_a_stop_ends_a_program_that_never_would(house: House) -> None:
     def stop_soon(event: Event) -> None:
         if isinstance(event, TruePose) and event.vx_mps > 0.15:

@@ -257,10 +257,7 @@ class Dispatch:
             self._emit(Interpreted(utterance.turn, "offline", "", ""))
             self._requests.conclude(utterance.turn, "unclear", reply)
             return
-        meant = self._understanding.accept(plan)
-        plan_text = format_plan(plan)
-        self._emit(Interpreted(utterance.turn, "offline", plan_text, ""))
-        self._send_plan(utterance, meant, plan_text)
+        self._act_on(utterance, self._understanding.accept(plan))
 
     def _plan_in(self, utterance: Utterance) -> Plan:
         """The plan that was said; for an edit that cannot be read the one that it was made of, and a word about it.

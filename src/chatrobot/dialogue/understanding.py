@@ -20,6 +20,7 @@ from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
 from chatrobot.language.phrases import describe_steps, render_reason, say
+from chatrobot.language.speed_limit import kept_within, within_limit
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.world import World
@@ -54,7 +55,7 @@ class Understanding:
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
         self.is_simulated = False
         """Whether things can be put around the robot and taken away."""
-        self._interpreter = OfflineInterpreter(profile)
+        self._profile, self._interpreter = profile, OfflineInterpreter(profile)
         self._dialogue = Dialogue()
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self.world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
@@ -180,9 +181,20 @@ class Understanding:
         """Return the plan with what `said` changes of it; None where that says anything else."""
         return self._interpreter.amended(plan, said, self._context(self._dialogue))
 
+    @property
+    def limit_mps(self) -> float | None:
+        """Return the highest speed that a person allows; None where nobody has said one."""
+        limit_mps = self._dialogue.usual.limit_mps
+        return None if limit_mps == math.inf else limit_mps
+
+    def within_limit(self, step: Step) -> Step:
+        """Return the step no faster than the person allows."""
+        return step if self.limit_mps is None else kept_within(step, self.limit_mps, self._profile)
+
     def accept(self, plan: Plan) -> Interpretation:
-        """Return the meaning of a plan as it is: there is nothing to understand."""
-        return Interpretation("plan", "", self.language, plan)
+        """Return the meaning of a plan as it is: there is nothing to understand, but it keeps to the speed limit."""
+        meant = Interpretation("plan", "", self.language, plan)
+        return meant if self.limit_mps is None else within_limit(meant, self.limit_mps, self._profile)
 
     def say(self, code: str, text: str, **values: float | str) -> str:
         """Return a phrase in the language of `text`, what the person said."""

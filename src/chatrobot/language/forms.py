@@ -85,6 +85,22 @@ def read_usual(text: str, language: str) -> tuple[str, str] | None:
     return None
 
 
+def read_limit(text: str, language: str) -> str | None:
+    """The highest speed that a text sets, in its words: `never faster than 0.2 m/s`; else None."""
+    found = _whole(text, language, "usual_limit")
+    return found["amount"] if found else None
+
+
+def ends_limit(text: str, language: str) -> bool:
+    """Whether a text ends the speed limit that a person set."""
+    return _whole(text, language, "no_limit") is not None
+
+
+def _whole(text: str, language: str, name: str) -> re.Match[str] | None:
+    plain = without_nod(text, language).strip(" .!。")
+    return next((found for one in _patterns(language, name) if (found := one.fullmatch(plain))), None)
+
+
 def read_place(clause: str, language: str) -> str | None:
     """The name a clause gives to where the robot stands; UNNAMED for none; None if it is no such clause."""
     plain = clause.strip(" ,.!;:。")

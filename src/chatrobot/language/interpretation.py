@@ -34,12 +34,16 @@ class Placement:
 
 
 class Usual(NamedTuple):
-    """What holds where a text does not say it, as a person set it; None: the profile's."""
+    """What holds where a text does not say it, as a person set it; None: the profile's.
+
+    `limit_mps` holds whatever a text says; infinite: the profile's again.
+    """
 
     speed_mps: float | None = None
     rate_radps: float | None = None
     distance_m: float | None = None
     turn_rad: float | None = None
+    limit_mps: float | None = None
 
     def changed(self, new: Usual) -> Usual:
         """The same with what `new` sets."""

@@ -56,6 +56,7 @@ from chatrobot.language.rephrase import in_full, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
+from chatrobot.language.speed_limit import bounded, plan_within, within_limit, without_limit
 from chatrobot.language.starting import (
     has_a_stop_line,
     mended_alone,
@@ -67,6 +68,7 @@ from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk,
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
+from chatrobot.language.usual import read_limit
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.robots.profile import RobotProfile
@@ -94,7 +96,10 @@ class OfflineInterpreter:
 
     def interpret(self, text: str, context: Context) -> Interpretation:
         """What `text` means in this context. Never raises, whatever the text."""
-        language = spoken(text, context)
+        language, limit_mps = spoken(text, context), context.dialogue.usual.limit_mps
+        if limit_mps is not None:
+            slow = OfflineInterpreter(bounded(self._profile, limit_mps))
+            return within_limit(slow.interpret(text, without_limit(context)), limit_mps, self._profile)
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
@@ -137,6 +142,11 @@ class OfflineInterpreter:
     def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:
         """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises."""
         change = after_consent(said)
+        limit_mps = context.dialogue.usual.limit_mps
+        if limit_mps is not None:
+            slow = OfflineInterpreter(bounded(self._profile, limit_mps))
+            changed = slow.amended(plan, said, without_limit(context))
+            return plan_within(changed, limit_mps, self._profile) if changed is not None else None
         if change is None:
             return None
         language, change = in_known_words(change, context)
@@ -259,6 +269,7 @@ class OfflineInterpreter:
         """What readers of their own answer, remember, put somewhere or go on with; None where none of them does."""
         told = (
             answer_about_places(plain, language, context)
+            or read_limit(plain, Reading(language, context, self._profile))
             or read_naming(plain, language, context)
             or read_putting(plain, language, context)
             or read_named_here(

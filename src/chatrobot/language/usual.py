@@ -1,4 +1,4 @@
-"""What a person sets for all that does not say it: `from now on at 10 cm/s`, `if I don't say how far, go 25 cm`."""
+"""What a person sets for all that follows: `from now on at 10 cm/s`, `never faster than 0.2 m/s`."""
 
 from __future__ import annotations
 
@@ -9,40 +9,54 @@ from chatrobot.language.frames import Frame
 from chatrobot.language.interpretation import Interpretation, Usual
 from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
-from chatrobot.language.tokens import SILENT
+from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
+
+_AMOUNTS = {"distance": ("length",), "turn": ("angle", "turns", "number")}
 
 
 def read_usual(plain: str, reading: Reading) -> Interpretation | None:
-    """Return the answer to a text that sets the distance or the turn which is meant where none is said; else None.
+    """Return the answer to a text that sets the usual distance or turn, or the highest speed; else None.
 
     Raises:
-        Unclear: what it sets is no length or no angle.
+        Unclear: what it sets is no length, no angle or no speed.
     """
-    told = forms.read_usual(plain, reading.language)
+    told, language = forms.read_usual(plain, reading.language), reading.language
     if told is None:
         return None
-    kind, amount = told
-    atoms = [atom for atom in reading.atoms(amount) if atom.kind not in SILENT]
-    names = {"distance": ("length",), "turn": ("angle", "turns", "number")}[kind]
-    if (
-        len(atoms) != 1
-        or atoms[0].kind != "q"
-        or atoms[0].value not in names
-        or not 0 < atoms[0].number < math.inf
-    ):
-        raise Unclear("no_unit", amount)
-    number = atoms[0].number
-    if kind == "distance":
-        reply, usual = (
-            say(reading.language, "usual_distance_set", distance_m=f"{number:.3g}"),
-            Usual(distance_m=number),
-        )
+    amount = _amount_in(told[1], reading, _AMOUNTS[told[0]])
+    if told[0] == "distance":
+        reply = say(language, "usual_distance_set", distance_m=f"{amount.number:.3g}")
+        usual = Usual(distance_m=amount.number)
     else:
-        turn_rad = math.radians(number) if atoms[0].value == "number" else number
-        reply = say(reading.language, "usual_turn_set", degrees=f"{math.degrees(turn_rad):.3g}")
+        turn_rad = math.radians(amount.number) if amount.value == "number" else amount.number
+        reply = say(language, "usual_turn_set", degrees=f"{math.degrees(turn_rad):.3g}")
         usual = Usual(turn_rad=turn_rad)
-    return Interpretation("answered", reply, reading.language, usual=usual)
+    return Interpretation("answered", reply, language, usual=usual)
+
+
+def read_limit(plain: str, reading: Reading) -> Interpretation | None:
+    """Return the answer to a text that sets the highest speed, or ends that: `never faster than 0.2 m/s`; else None."""
+    language = reading.language
+    if forms.ends_limit(plain, language):
+        return Interpretation(
+            "answered", say(language, "speed_limit_ended"), language, usual=Usual(limit_mps=math.inf)
+        )
+    told = forms.read_limit(plain, language)
+    try:
+        limit_mps = _amount_in(told or "", reading, ("speed", "number")).number  # m/s
+    except Unclear:
+        return None
+    reply = say(language, "speed_limit_set", mps=f"{limit_mps:.3g}")
+    return Interpretation("answered", reply, language, usual=Usual(limit_mps=limit_mps))
+
+
+def _amount_in(text: str, reading: Reading, kinds: tuple[str, ...]) -> Atom:
+    atoms = [atom for atom in reading.atoms(text) if atom.kind not in SILENT]
+    is_one = len(atoms) == 1 and atoms[0].kind == "q" and atoms[0].value in kinds
+    if not is_one or not 0 < atoms[0].number < math.inf:
+        raise Unclear("no_unit", text)
+    return atoms[0]
 
 
 def from_now_on(frames: list[Frame], reading: Reading) -> Interpretation | None:

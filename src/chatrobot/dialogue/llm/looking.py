@@ -30,6 +30,10 @@ class Surroundings:
         """Return the steps in a few words, in the person's language."""
         return self._understanding.describe(steps)
 
+    def within_limit(self, step: Step) -> Step:
+        """Return the step no faster than the person allows."""
+        return self._understanding.within_limit(step)
+
     def observation(
         self, looks: tuple[str, ...], looked: Looked | None, finished: Finished | None
     ) -> Message:

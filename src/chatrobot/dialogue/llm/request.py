@@ -178,7 +178,7 @@ class ModelRequest:
         return self._cancelled is None and not self._round.is_in_vain
 
     def _take(self, steps: list[Step]) -> None:
-        for step in steps:
+        for step in map(self._surroundings.within_limit, steps):
             self._round.steps.append(step)
             self._feed.take(step)
 

@@ -306,7 +306,7 @@ class ProgramRequests:
             is_new=draft.is_new,
             by_model=draft.by_model,
             is_led_elsewhere=is_led_elsewhere,
-            asks=draft.asks,
+            asks=draft.asks or self._understanding.limit_mps is not None,  # a rehearsal tells how fast it is
         )
 
     def _show(self, turn: int, draft: Draft) -> None:
