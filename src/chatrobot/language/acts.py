@@ -28,6 +28,7 @@ _MEASURES = frozenset({"UNIT", "COUNTER"})
 _AMOUNTS = _MEASURES | {"NUMBER", "SCALE", "FRACTION"}
 _DOES = frozenset({"VERB", "DIR"})
 _TELLING = frozenset({"verdict", "mine"})
+_SUBJECTS = frozenset({"kin", "later"})
 _LOOKS_BACK = 3
 SCALE = 24.0
 """A weight of one is this much in a byte."""
@@ -119,7 +120,14 @@ def without_requests(text: str, names: Names = ()) -> str:
 def _is_talk(read: Read, limit_of_motion: float) -> bool:
     clause = read.clause
     limit = limit_of_motion if clause.moves else TALK
-    return clause.talks and not clause.binds and read.log_odds < limit
+    is_others = limit_of_motion == MAYBE_ORDER and _has_own_subject(clause)
+    return (clause.talks or is_others) and not clause.binds and read.log_odds < limit
+
+
+def _has_own_subject(clause: Clause) -> bool:
+    """`…, I'll go back 2 m`: what somebody else than the robot does."""
+    pairs = itertools.pairwise(sign.label for sign in clause.signs)
+    return any(before in _SUBJECTS and label == "VERB" for before, label in pairs)
 
 
 def _does(read: Read) -> bool:

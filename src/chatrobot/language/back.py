@@ -94,11 +94,22 @@ def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | No
     ]
 
 
-def reversed_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
-    """`Reverse to the start`, which lies straight behind: backwards all the way; None where it only says `back`."""
+def straight_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`Reverse to the start`, `slide back to the start`: that way all the way; None where it only says `back`.
+
+    Raises:
+        Unclear: it is to slide there, and the start lies to neither side.
+    """
     says_only_back = any(text.split()[-1:] == ["back"] for text in whole.texts)
     way_m, off_rad = _way_to_start(context)
-    if whole.direction != "back" or says_only_back or way_m <= NEAR_M or math.pi - abs(off_rad) > FAR_RAD / 4:
+    if way_m <= NEAR_M:
+        return None
+    if "sideways" in whole.flags:
+        if abs(abs(off_rad) - math.pi / 2) > FAR_RAD / 4:
+            raise Unclear("which_side", whole.text)
+        return [Drive(way_m, direction_rad=math.copysign(math.pi / 2, off_rad), speed_mps=pace.speed(whole))]
+    is_reversed = "backing" in whole.flags or (whole.direction == "back" and not says_only_back)
+    if not is_reversed or math.pi - abs(off_rad) > FAR_RAD / 4:
         return None
     return [Drive(way_m, direction_rad=math.pi, speed_mps=pace.speed(whole))]
 

@@ -103,7 +103,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         Unclear: where the change fits none of them, or several, or does not tell how much.
     """
     whole = _speed_said(_part_said(whole), before)
-    if {"again", "more", "bit"} <= whole.flags and not whole.q:
+    if {"again", "bit"} <= whole.flags and not whole.q:
         raise Unclear(
             "how_far", " ".join(dict.fromkeys(whole.texts))
         )  # `again but a bit further`: by how much?
@@ -113,7 +113,18 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         del whole.q["fold"]
         name = "faster" if re.search("速|快|慢", fold.text) else "scale"
         whole.q[name] = quantity(name, fold.number, fold.text)
-    before, whole = _mirrored(before, _round_other_way(before, whole))
+    whole = _round_other_way(before, whole)
+    kinds = {isinstance(step, Drive) for step in _leaves(before) if not isinstance(step, Wait)}
+    if (
+        "other_way" in whole.flags
+        and "mirrored" not in whole.flags
+        and len(kinds) > 1
+        and not whole.has_extent
+    ):
+        raise Unclear(
+            "unclear_motion", whole.text
+        )  # `drive 2 m, turn right`, then `the other way`: which of them?
+    before, whole = _mirrored(before, whole)
     if whole.direction in SIDES and any(isinstance(step, (Turn, Arc)) for step in _leaves(before)):
         whole = whole.copy()  # `the same but right`, of a turn and a drive: of the turn
         whole.rot, whole.direction = whole.rot or whole.direction, ""

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from chatrobot import reflex
 from chatrobot.language import questions
-from chatrobot.language.acts import orders as is_ordered
+from chatrobot.language.asked import DOINGS, answered_question
 from chatrobot.language.changes import takes_from_before
 from chatrobot.language.corrections import CORRECTING
 from chatrobot.language.edits import edited
 from chatrobot.language.figures import figure_asked, with_another_size, with_side_and_size
-from chatrobot.language.frames import GO, STILL, TURN, Frame
+from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
 from chatrobot.language.likeliest import proposed
@@ -42,7 +42,6 @@ from chatrobot.plan.steps import Drive, ObstacleWithin, Step, Wait
 
 _MOVING = frozenset({"q", "dir", "rot", "shape", "place", "defined", "number", "pace", "condition"})
 _SENTENCE_END = re.compile(r"(?<=[?!.,;。])\s|(?<=[?。;])")
-_DOINGS = frozenset({*GO, *TURN, "curve", "make", "uturn", "return"})
 
 
 def read_command(plain: str, reading: Reading) -> Interpretation:
@@ -221,7 +220,7 @@ def _answered(plain: str, atoms: list[Atom], reading: Reading) -> Interpretation
         raise Unclear("unknown_part", doubt.text)
     asks = ability or questions.is_question(plain, language)
     if refusal is None or (asks and questions.topic_of(plain, language) == "contact"):
-        return _question(plain, atoms, ability, reading) if asks else None
+        return answered_question(plain, atoms, reading, ability=ability) if asks else None
     measured = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
     if (
         ability and plain.endswith("?") and not measured
@@ -272,43 +271,6 @@ def _is_stop(plain: str, reading: Reading) -> bool:
     )
 
 
-def _question(plain: str, atoms: list[Atom], ability: bool, reading: Reading) -> Interpretation | None:
-    """The answer, unless it is a command put as a question."""
-    language = reading.language
-    try:
-        frames = frames_of(atoms)
-        check_finished(atoms)
-        steps = reading.steps(frames)
-        steps = [] if is_choice(plain, language) or questions.asks_what_it_can(plain, language) else steps
-        plain_question = questions.is_plain_question(plain, language)
-        told = any(f.has_extent or "times" in f.q for f in frames)
-        if steps and (told or any(f.moves and not plain_question and not _is_bare(f) for f in frames)):
-            return None
-    except Unclear:
-        ways = any(a.kind in ("dir", "rot", "shape") for a in atoms)
-        doing = ways or any(a.kind == "verb" and a.value in _DOINGS for a in atoms)
-        amount = any(a.kind == "q" and a.value in ("length", "angle", "turns") for a in atoms)
-        favour = questions.asks_a_favour(plain, language)
-        counted = any(a.kind == "q" and a.value == "times" for a in atoms)
-        if (doing and amount and is_ordered(plain)) or ((doing or amount or counted) and favour):
-            raise  # could you …: it is to be done, and no fact answers it
-    if questions.orders(plain, language):
-        return None
-    topic = questions.topic_of(plain, language)
-    if not topic and ability:
-        topic = "ability"
-    if not topic:
-        return None
-    reply = questions.answer(topic, language, reading.context, reading.profile)
-    return Interpretation("answered", reply, language)
-
-
-def _is_bare(frame: Frame) -> bool:
-    """`Can you drive?`: a verb alone asks whether it can."""
-    told = frame.direction or frame.rot or frame.shape or frame.place or frame.words or frame.flags
-    return not told and frame.verb in (*GO, *TURN, "curve")
-
-
 def _check_no_question_beside(plain: str, reading: Reading) -> None:
     """`Where are you? Forward 1 m`: neither is passed over for the other.
 
@@ -324,7 +286,7 @@ def _check_no_question_beside(plain: str, reading: Reading) -> None:
     if not asked:
         return
     others = [a for sentence in sentences if sentence not in asked for a in reading.atoms(sentence)]
-    if any(a.kind in _MOVING or (a.kind == "verb" and a.value in _DOINGS) for a in others):
+    if any(a.kind in _MOVING or (a.kind == "verb" and a.value in DOINGS) for a in others):
         raise Unclear("question_beside", asked[0])
 
 

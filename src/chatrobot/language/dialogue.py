@@ -11,8 +11,8 @@ from chatrobot.language.back import (
     only_slid,
     only_turned,
     part_way_back,
-    reversed_to_start,
     slid_back,
+    straight_to_start,
 )
 from chatrobot.language.changes import a_bit_of, changed, is_change, steps_named
 from chatrobot.language.context import Context, Dialogue
@@ -95,7 +95,7 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
     if ("to_start" not in flags and only_turned(context)) or only_slid(context):
         return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
     go = Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))
-    return reversed_to_start(whole, context, pace) or [go]
+    return straight_to_start(whole, context, pace) or [go]
 
 
 def _goes_to_start(whole: Frame) -> bool:

@@ -58,6 +58,13 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         edit.way, edit.returns = aslant[edit.way], True
     elif edit.way.startswith("back_") and "same_amount" in edit.flags:
         raise Unclear("which_way")
+    elif (
+        edit.way == "back"
+        and "same_amount" in edit.flags
+        and any(map(is_sideways, steps))
+        and not _says_only_back(atoms)
+    ):
+        raise Unclear("which_way")  # `right 1 m`, then `back up as far`: where it came from, or backwards?
     if edit.returns and not _came_from(steps, edit.way):
         if "same_amount" not in edit.flags or any(is_chinese(atom.text) for atom in atoms):
             return None
@@ -79,6 +86,12 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         unit_m = said_unit_m(last.text) or 0.0
         edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 1.0) for amount in edit.amounts]
     return (_applied(edit, steps) or []) * edit.times or None
+
+
+def _says_only_back(atoms: Sequence[Atom]) -> bool:
+    """Whether it says `back`, and not `back up` or `reverse`."""
+    said = [atom.text for atom in atoms if atom.kind in ("dir", "verb")]
+    return any(is_chinese(text) or text.split()[-1:] == ["back"] for text in said)
 
 
 def _came_from(steps: list[Step], side: str) -> bool:

@@ -65,6 +65,8 @@ def read_definitions(text: str, language: str) -> list[Definition]:
 
 def read_definition(text: str, language: str) -> Definition | None:
     """`When I say shuffle, you slide left 30 cm`."""
+    if _pattern(language, "no_definition").search(text):
+        return None
     text = without_nod(text, language)
     for pattern in _patterns(language, "define"):
         found = pattern.fullmatch(text)
@@ -136,4 +138,8 @@ def trimmed(name: str, language: str) -> str:
     while (shorter := trim.sub("", name).strip(_MARKS)) != name and shorter:
         name = shorter
     words = len(name.split()) if name.isascii() else len(name) / 3
-    return "" if words > 4 or ":" in name or _pattern(language, "name_stop").search(name) else name
+    return (
+        ""
+        if words > 4 or any(mark in name for mark in ":。!?;") or _pattern(language, "name_stop").search(name)
+        else name
+    )

@@ -119,9 +119,11 @@ def round_trips(script: Script, frame: Frame) -> None:
 
 def is_way_back(trip: Frame, back: Frame) -> bool:
     """每趟前进一米再后退一米, `to and fro: a metre ahead, a metre back`: the way back of each trip, told as well."""
-    lengths = [frame.q["length"].number for frame in (trip, back) if "length" in frame.q]
-    as_far = len(lengths) == 2 and abs(lengths[0] - lengths[1]) < 1e-6
-    ways = {trip.direction, back.direction}
+    out, said = trip.q.get("length"), back.q.get("length")
+    as_far = out is not None and said is not None and abs(out.number - said.number) < 1e-6
+    number = back.q.get("number")  # `five metres up and reverse the five back`
+    as_far |= out is not None and number is not None and out.text.startswith(f"{number.text} ")
+    ways = {trip.direction or "forward", back.direction}
     return as_far and ways in ({"forward", "back"}, {"left", "right"})
 
 

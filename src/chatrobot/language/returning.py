@@ -79,13 +79,16 @@ def way_back(frame: Frame, state: State, pace: Pace) -> list[Step]:
         raise Unclear("unclear_motion", frame.text)
     if "bit" in frame.flags and not is_chinese(frame.text):
         raise Unclear("how_far", frame.text)  # `…, then come back a little`
-    if frame.direction or (frame.has_extent and frame.verb != "return"):
-        raise Unclear("unclear_motion", frame.text)
     speed = pace.speed(frame)
+    drives: list[Step] = [step for step in _since_back(state.steps) if not isinstance(step, Wait)]
+    straight = bool(drives) and all(isinstance(step, Drive) and step.until is None for step in drives)
+    ahead = straight and all(isinstance(step, Drive) and step.direction_rad == 0.0 for step in drives)
+    if frame.direction and not (frame.direction == "back" and "to_start" in frame.flags and ahead):
+        raise Unclear("unclear_motion", frame.text)
+    if (frame.has_extent and frame.verb != "return") or ("sideways" in frame.flags and ahead):
+        raise Unclear("unclear_motion", frame.text)
     if "same_way" in frame.flags:
         return inverse(state.steps, speed)
-    drives: list[Step] = [step for step in _since_back(state.steps) if not isinstance(step, Wait)]
-    straight = bool(drives) and all(isinstance(step, Drive) and step.distance_m for step in drives)
     if straight and not _are_back(drives):
         return inverse(list(drives), speed)
     about = _has_turned_about(state) and all(isinstance(step, Turn) for step in drives)

@@ -6,8 +6,8 @@ import itertools
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from chatrobot.language.acts import MAYBE_ORDER, Read, read_acts
-from chatrobot.language.beside import Aside, asides, says_motion_alone
+from chatrobot.language.acts import MAYBE_ORDER, ORDER, Read, order_log_odds, read_acts
+from chatrobot.language.beside import Aside, asides, refers_alone, says_motion_alone
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation
@@ -15,6 +15,7 @@ from chatrobot.language.lexicon import lexicon
 from chatrobot.language.names import names_in
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quoting import holds_back
+from chatrobot.language.rephrase import rephrased
 from chatrobot.language.rules import Rule, form, rules
 from chatrobot.language.set_off import is_doubted
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
@@ -80,6 +81,8 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody."""
     if meant.plan is None:
         return False
+    if _refers_past_question(text, language, context):
+        return True
     names = names_in(context)
     clauses = clauses_of(text, names)
     if len(clauses) < 2:
@@ -94,6 +97,26 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     return (
         _is_bare_beside_talk(reads) or calls_somebody(reads, language) or _calls_a_name(reads, text, context)
     )
+
+
+_WAYS = frozenset({("flag", "same_way"), ("flag", "other_way")})
+"""They answer to which side."""
+
+
+def _refers_past_question(text: str, language: str, context: Context) -> bool:
+    """Whether a text asks for the motion before, and another order was asked back since: `do that twice`, of which?"""
+    dialogue, names = context.dialogue, names_in(context)
+    if not dialogue.pending or not any(turn.moved for turn in dialogue.turns):
+        return False
+    pending = read_acts(normalise(dialogue.pending), names)
+    reads = read_acts(rephrased(text, language), names)
+    signs = [sign for read in reads for sign in read.clause.signs]
+    completes = any(
+        sign.is_name or _WAYS & {*lexicon().words.get(tuple(sign.text.split("_")), ())} for sign in signs
+    )
+    told = order_log_odds(pending) >= ORDER and any(read.clause.tells for read in pending)
+    is_order = (dialogue.offered is not None or told) and not refers_alone(pending)
+    return is_order and not completes and refers_alone(reads)
 
 
 def _is_bare_beside_talk(reads: Sequence[Read]) -> bool:

@@ -77,8 +77,19 @@ def _check_beside(frames: list[Frame]) -> None:
     """`Meanwhile turn left` alone is a turn; `while turning left, …` is none before what comes.
 
     Raises:
-        Unclear: where a turn is said to be beside something, and is joined with no motion.
+        Unclear: where a turn is said to be beside something, and is joined with no motion; for two drives at a time.
     """
+    aslant = next((frame for frame in frames if frame.place and "sideways" in frame.flags), None)
+    if aslant is not None:
+        raise Unclear(
+            "unclear_motion", aslant.text
+        )  # `to the charger, but sideways`: the way there has turns
+    for before, frame in itertools.pairwise(frames):
+        both = "length" in frame.q and "length" in before.q and not (before.rot or before.verb in TURN)
+        if "while" in frame.flags and both and frame.direction in SIDES and frame.verb not in TURN:
+            raise Unclear(
+                "unclear_motion", frame.text
+            )  # `1 m forward and 1 m right at the same time`: aslant?
     for frame in frames:
         if (
             "while" in frame.flags
