@@ -60,6 +60,16 @@ ONLY_TOLD = [
     ("前后左右各走半米，每次都回到中间",),
     ("can you go forward as many metres as she's got apples left?",),
     ("go slower please",),
+    ("forward 2 m, turn left, then the same backwards",),
+    ("a square of 1 m, but sideways without turning: forward, right, back, left",),
+    ("drive 1 m, turn right, another metre, right again, and so on",),
+    (
+        "ein Meter vor, dann rechts rum, dann noch 50 Zentimeter",
+        "den zweiten Schritt bitte rückgängig machen",
+    ),
+    ("Ein Dreieck rechtsrum, Umfang drei Meter, danach noch ein Kreis linksrum mit gleichem Umfang.",),
+    ("zwei Meter vor", "Jetzt darfst du wieder Gas geben."),
+    ("zwei Meter vor", "Okay, wieder volles Tempo."),
     ("forward 1 m, then slide back to the start",),
 ]
 
@@ -114,6 +124,8 @@ def test_it_is_asked_about_or_answered_and_moves_nothing(turns: tuple[str, ...])
             'go to 0 0 named "a"; go to 0 -1 named "b"; go to 0 0 named "a"; go to 0 -1 named "b"',
         ),
         (("perfect, 50 cm back",), "drive 0.5 m back"),
+        (("Fahr drei Meter vor, halt, nein, zwei",), "drive 2 m"),
+        (("drei Meter rückwärts, aber sachte", "und jetzt mit Karacho wieder vor"), "drive 3 m at 1 m/s"),
         (("good, now forward 2 m",), "drive 2 m"),
         (("forward 90 cm, that's 0.9 m",), "drive 0.9 m"),
     ],

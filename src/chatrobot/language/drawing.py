@@ -19,10 +19,31 @@ def drawn(found: Measures) -> list[Step]:
     """
     if found.sliding and not found.can_go_sideways:
         raise Unclear("cannot_go_sideways", found.text, refused=True)
+    if found.area_m2:
+        found.lengths.append(_length_of_area(found))
     draw = _DRAWN.get("polygon" if found.shape.startswith("polygon") else found.shape)
     if draw is None:
         raise Unclear("unclear_motion", found.text)
     return _some_sides(draw(found), found)
+
+
+def _length_of_area(found: Measures) -> tuple[float, list[str]]:
+    """The side or radius, m, that a shape of that area has; of a rectangle the other side.
+
+    Raises:
+        Unclear: its area does not tell its size, or that is told as well.
+    """
+    area_m2, told = found.area_m2, found.plain()
+    sides = 3 if found.shape == "triangle" else 4 if found.shape == "square" else 0
+    if found.shape.startswith("polygon_"):
+        sides = int(found.shape[len("polygon_") :])
+    if found.shape == "rectangle" and len(told) == 1:
+        return area_m2 / told[0], []
+    if found.shape == "circle" and not told:
+        return math.sqrt(area_m2 / math.pi), ["radius"]
+    if sides and not told:  # of a regular polygon, n / 4 * side^2 / tan(pi / n)
+        return math.sqrt(4 * area_m2 * math.tan(math.pi / sides) / sides), ["side"]
+    raise Unclear("which_size", found.text)
 
 
 def _some_sides(steps: list[Step], found: Measures) -> list[Step]:
@@ -56,7 +77,10 @@ def _polygon(found: Measures) -> list[Step]:
 
 
 def _rectangle(found: Measures) -> list[Step]:
-    values = found.plain()
+    values, around = found.plain(), found.with_role("circumference")
+    if around is not None:
+        values = [value for value, roles in found.lengths if "circumference" not in roles]
+        values += [around / 2 - value for value in values if value < around / 2]
     if len(values) != 2:
         raise Unclear("which_size", found.text)
     first, second = values

@@ -13,6 +13,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 
+from chatrobot.language.inverse import is_sideways
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
@@ -171,6 +172,14 @@ def _check_sides(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
     slides = any(isinstance(step, Drive) and math.sin(step.direction_rad) for step in steps)
     if drawn and len({atom.value for atom in ways}) == 2 and len(bends) == 1 and not slides:
         raise Unclear("unclear_motion", ways[-1].text)
+    slid = [step.direction_rad > 0 for step in steps if isinstance(step, Drive) and is_sideways(step)]
+    if (
+        drawn
+        and len({*slid}) == 2
+        and len({a.value for a in ways}) == 2
+        and slid[0] != (ways[0].value == "left")
+    ):
+        raise Unclear("unclear_motion", ways[0].text)  # `sideways: forward, right, back, left`
 
 
 def _check_flags(

@@ -17,7 +17,7 @@ class Measures:
     """What is said about a shape: lengths with the roles they were said with, in order.
 
     `text` is what was said of it, `default_m` the size it has where nothing is said; `some_sides` how many of its sides
-    are to be driven, 0 for all.
+    are to be driven, 0 for all; `area_m2` 0 where none is said.
     """
 
     shape: str = ""
@@ -37,6 +37,7 @@ class Measures:
     seconds: float | None = None
     speed: float | None = None
     some_sides: int = 0
+    area_m2: float = 0.0
 
     def with_role(self, *roles: str) -> float | None:
         """The first length that was said with one of these roles."""
@@ -89,7 +90,9 @@ def _take_amount(found: Measures, head: Frame, part: Frame, name: str, amount: A
     value = amount.number
     if name in ("length", "angle", "time") and not (math.isfinite(value) and 0 < value <= 1000):
         raise Unclear("bad_number", amount.text)
-    if name == "length":
+    if name == "length" and "area" in part.roles:
+        found.area_m2 = value
+    elif name == "length":
         roles = list(part.roles) + (["side"] if {"each", "all"} & part.flags else [])
         found.lengths.append((value, roles + (["circumference"] if "total" in part.flags else [])))
     elif name == "angle":

@@ -26,7 +26,7 @@ _REFERRING = frozenset({
 _COUNTED = {"tile", "step"}
 """What is counted: as a word without its count it says nothing."""
 
-OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal"}
+OUTLINES = {"short", "apart", "circumference", "ends", "straights", "diagonal", "area"}
 """Measures that only a drawn shape has."""
 
 

@@ -104,7 +104,7 @@ def _check_beside(frames: list[Frame]) -> None:
 def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
     """A drive without an amount beside clauses that have one, or as something before, was most likely misread: ask."""
     for frame in unsaid:
-        if "again" in frame.flags and frame.q:  # `the same move forward again at double the speed`
+        if "again" in frame.flags:  # `…, then the same backwards`
             raise Unclear("how_far", frame.text)
         if any("same_amount" in other.flags for other in frames):
             raise Unclear("how_far", frame.text)  # `the same amount diagonally, front-left at 45 deg`
