@@ -98,7 +98,7 @@ def straight_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] 
     """`Reverse to the start`, `slide back to the start`: that way all the way; None where it only says `back`.
 
     Raises:
-        Unclear: it is to slide there, and the start lies to neither side.
+        Unclear: it is to slide or to reverse there, and the start lies elsewhere.
     """
     says_only_back = any(text.split()[-1:] == ["back"] for text in whole.texts)
     way_m, off_rad = _way_to_start(context)
@@ -108,8 +108,13 @@ def straight_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] 
         if abs(abs(off_rad) - math.pi / 2) > FAR_RAD / 4:
             raise Unclear("which_side", whole.text)
         return [Drive(way_m, direction_rad=math.copysign(math.pi / 2, off_rad), speed_mps=pace.speed(whole))]
-    is_reversed = "backing" in whole.flags or (whole.direction == "back" and not says_only_back)
-    if not is_reversed or math.pi - abs(off_rad) > FAR_RAD / 4:
+    reverses, is_behind = (
+        whole.direction == "back" and not says_only_back,
+        math.pi - abs(off_rad) <= FAR_RAD / 4,
+    )
+    if reverses and not is_behind:
+        raise Unclear("which_way", whole.text)
+    if not is_behind or not (reverses or "backing" in whole.flags):
         return None
     return [Drive(way_m, direction_rad=math.pi, speed_mps=pace.speed(whole))]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from dataclasses import replace
 
@@ -236,6 +237,9 @@ def _check_whole(plain: str, atoms: list[Atom], reading: Reading, *, asks: bool)
         raise Unclear("unknown_part", f"{loose} …")
     if is_choice(plain, reading.language):
         raise Unclear("contradiction", plain[:60])
+    for before, atom in itertools.pairwise(atoms):
+        if before.kind == "per" and atom.kind == "q" and atom.value in ("length", "angle", "turns", "count"):
+            raise Unclear("unclear_motion", f"{before.text} {atom.text}")  # 走六米，每两米左转一下
     check_finished(atoms)
 
 

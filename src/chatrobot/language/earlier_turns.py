@@ -20,6 +20,7 @@ from chatrobot.language.rules import form
 from chatrobot.language.selections import same_speed
 from chatrobot.language.set_off import set_off
 from chatrobot.language.sides import is_side, with_side
+from chatrobot.language.talk import not_ordered
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -50,6 +51,11 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         return None
     if form(reading.language, "talk", "confirms").fullmatch(normalise(pending).strip()):
         return None  # it said yes to what was done
+    told = not pending.rstrip().endswith("?") and not_ordered(
+        normalise(pending), reading.language, None, reading.context.dialogue
+    )
+    if told:
+        return None  # `home, sweet home`
     if changes_nothing_said(normalise(pending), reading):
         return None  # it was to change a plan, and did not: nothing is to stay of it
     pending = _without_talk(pending, reading)

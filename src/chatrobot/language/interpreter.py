@@ -126,7 +126,8 @@ class OfflineInterpreter:
             if problem.code == "condition":
                 return asked_back(problem, language)
             parted = with_tails_parted(with_breaks(text, language), names_in(context))
-            meant = self._meant(parted, language, context) if parted != text else None
+            is_other = parted != text and not problem.is_final
+            meant = self._meant(parted, language, context) if is_other else None
             if meant is not None and meant.plan is not None:
                 return meant
             reading = Reading(language, context, self._profile)

@@ -11,6 +11,7 @@ from chatrobot.language.beside import Aside, asides, refers_alone, says_motion_a
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.names import names_in
 from chatrobot.language.normalise import normalise
@@ -27,6 +28,8 @@ _ASKING = frozenset({"request", "please", "polite", "correction", "complaint"})
 _OPENING = frozenset({"opening", "robot", "social", "praise", "not", "same"})
 _CALLING = frozenset({"person", "please", "opening"})
 _POLITE = frozenset({"please", "opening", "social"})
+_AMOUNT = frozenset({"NUMBER", "UNIT", "FRACTION"})
+_NAMED = frozenset({"AMOUNT", "DIR", "SHAPE"})
 _SUBJECTS = frozenset({"mine", "kin", "other", "thing"})
 _MEANT = frozenset({"VERB", "DIR", "ROT", "SHAPE", "UNIT", "PLACE"})
 """Labels of words by which a clause could be meant for the robot, though somebody else is its subject."""
@@ -81,10 +84,14 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     """Whether a plan stands beside words that make it quoted, or said to somebody else, or to nobody."""
     if meant.plan is None:
         return False
-    if _refers_past_question(text, language, context):
+    last = context.dialogue.turns[-1] if context.dialogue.turns else None
+    is_done = last is not None and last.plan == meant.plan
+    if (is_done and _says(text, language, "praised")) or _refers_past_question(text, language, context):
         return True
     names = names_in(context)
     clauses = clauses_of(text, names)
+    if last is not None and _answers_others(clauses, last, context):
+        return True
     if len(clauses) < 2:
         return False  # there is nothing beside it
     if holds_back(clauses) or is_doubted(text, clauses, meant.language):
@@ -97,6 +104,16 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     return (
         _is_bare_beside_talk(reads) or calls_somebody(reads, language) or _calls_a_name(reads, text, context)
     )
+
+
+def _answers_others(clauses: Sequence[Clause], last: TurnRecord, context: Context) -> bool:
+    """`Two metres twenty`, after `how wide is that couch?`: a question that nobody asked the robot."""
+    asked = last.outcome == "unclear" and last.text.rstrip().endswith(("?", "？"))
+    signs = [sign for clause in clauses for sign in clause.signs]
+    moving = {"AMOUNT" if sign.label in _AMOUNT else sign.label for sign in signs if sign.moves}
+    if not asked or len(moving) != 1 or not moving <= _NAMED or any(sign.label in _ASKING for sign in signs):
+        return False
+    return order_log_odds(read_acts(normalise(last.text), names_in(context))) < MAYBE_ORDER
 
 
 _WAYS = frozenset({("flag", "same_way"), ("flag", "other_way")})

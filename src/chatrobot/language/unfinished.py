@@ -52,19 +52,20 @@ def check_consistent(text: str, language: str, names: Collection[Key] = ()) -> N
 
 
 def check_unconditional(text: str, language: str) -> None:
-    """Ask back where the whole of a normalised text is ordered on a condition that the robot cannot judge: of its
-    clauses alone, that one may look like an aside.
+    """Ask back where the whole of a normalised text is ordered on a condition that the robot cannot judge, or has a
+    part that no rule reads: of its clauses alone, that one may look like an aside.
 
     Raises:
         Unclear: for such a text.
     """
     _check(text, language, "conditional")
+    _check(text, language, "unread")
 
 
 def _check(text: str, language: str, name: str, known: Collection[str] = ()) -> None:
     found = filter(None, (rule.search(text) for rule in _rules(language, name)))
     if any(not any(word in part.group() for word in known) for part in found):
-        raise Unclear(_ASKED[name], text[:_SHOWN])
+        raise Unclear(_ASKED[name], text[:_SHOWN], is_final=name == "unread")
 
 
 @cache
