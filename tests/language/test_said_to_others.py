@@ -10,6 +10,24 @@ from tests.language.test_usual import done
 @pytest.mark.parametrize(
     "turns",
     [
+        ("Drive 1 m.", "One metre, as ordered."),
+        ("Drive 1 m.", "Good, one metre."),
+        ("Slide left 40 cm.", "Great, forty centimetres."),
+        ("Turn right 30.", "Thirty degrees, just like that."),
+        ("Do a square.", "A square, indeed."),
+        ("Drive 1 m.", "Really, again?"),
+        ("Drive 1 m.", "Start at ten o'clock."),
+        ("Right, two minutes, then we're going, kids.",),
+        ("Right, one sec.",),
+        ("In an hour, go two metres back.",),
+        ("Wait on the right.",),
+        ("Slide the bolt to the left.",),
+        ("Left hand.",),
+        ("Two metres apart.",),
+        ("Drive 1 m.", "I'd love to go home now."),
+        ("There, on the right.",),
+        ("Slide 30 cm right.", "Repeat that, you're breaking up."),
+        ("Turn left.", "Good, left."),
         ("Go 1 m.", "Do that again and you're grounded, young man!"),
         ("Drive 1 m.", "Spin twice and you'll fall over, kiddo."),
         ("Drive 1 m.", "How tall is your brother?", "Two metres."),
@@ -58,6 +76,8 @@ def test_it_moves_nothing_without_a_yes(turns: tuple[str, ...]) -> None:
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        (("Drive 1 m.", "one more metre"), "drive 1 m"),
+        (("Drive 1 m.", "another metre please"), "drive 1 m"),
         (("退一米，我往前站一米",), "drive 1 m back"),
         (("我绕着你转一圈，你等着",), "wait 1 s"),
         (("往左移一米，我再往右走一米",), "drive 1 m left"),

@@ -85,11 +85,11 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
     if meant.plan is None:
         return False
     last = context.dialogue.turns[-1] if context.dialogue.turns else None
-    is_done = last is not None and last.plan == meant.plan
-    if (is_done and _says(text, language, "praised")) or _refers_past_question(text, language, context):
-        return True
     names = names_in(context)
     clauses = clauses_of(text, names)
+    is_done = last is not None and last.plan == meant.plan and last.walk is None
+    if (is_done and _says(text, language, "praised")) or _refers_past_question(text, language, context):
+        return True
     if last is not None and _answers_others(clauses, last, context):
         return True
     if len(clauses) < 2:
