@@ -97,12 +97,14 @@ def part_way_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | No
 def straight_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     """`Reverse to the start`, `slide back to the start`: that way all the way; None where it only says `back`.
 
+    None while it moves, too: how far it is then is known once it stands.
+
     Raises:
         Unclear: it is to slide or to reverse there, and the start lies elsewhere.
     """
     says_only_back = any(text.split()[-1:] == ["back"] for text in whole.texts)
     way_m, off_rad = _way_to_start(context)
-    if way_m <= NEAR_M:
+    if way_m <= NEAR_M or context.state.moving:
         return None
     if "sideways" in whole.flags:
         if abs(abs(off_rad) - math.pi / 2) > FAR_RAD / 4:

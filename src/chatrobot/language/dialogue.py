@@ -99,7 +99,9 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
 
 
 def _goes_to_start(whole: Frame) -> bool:
-    return (whole.verb == "return" or "to_start" in whole.flags) and not whole.q and not whole.place
+    reverses = whole.direction == "back" or "backing" in whole.flags
+    paced = whole.q.keys() <= PACES if reverses else not whole.q
+    return (whole.verb == "return" or "to_start" in whole.flags) and paced and not whole.place
 
 
 def _names_its_own(whole: Frame) -> bool:
