@@ -10,6 +10,8 @@ from tests.language.test_usual import done
 @pytest.mark.parametrize(
     "turns",
     [
+        ("forward 3 m", "hmm, actually I only wanted two"),
+        ("forward 2 m please", "instead of that go left 2 m"),
         ("Drive 1 m.", "One metre, as ordered."),
         ("Drive 1 m.", "Good, one metre."),
         ("Slide left 40 cm.", "Great, forty centimetres."),
@@ -76,6 +78,13 @@ def test_it_moves_nothing_without_a_yes(turns: tuple[str, ...]) -> None:
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        (("go left 2 m", "stay on this course for another 1 m"), "drive 1 m left"),
+        (("forward 2 m", "turn around", "continue in this direction for 1 m"), "drive 1 m"),
+        (
+            ("forward 1 m, wait 3 seconds, left 1 m", "now all that with no waiting"),
+            "drive 1 m; drive 1 m left",
+        ),
+        (("前进三米每隔一米停三秒",), "drive 1 m; wait 3 s; drive 1 m; wait 3 s; drive 1 m"),
         (("Drive 1 m.", "one more metre"), "drive 1 m"),
         (("Drive 1 m.", "another metre please"), "drive 1 m"),
         (("退一米，我往前站一米",), "drive 1 m back"),
