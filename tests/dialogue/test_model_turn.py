@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import pytest
 from tests.dialogue.scripted_model import ModelOptions, ModelTalk, Options
 
-from chatrobot.core.events import Interpreted, ModelCalled, Streamed, TruePose
+from chatrobot.core.events import Interpreted, ModelCalled, Streamed
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.understanding import Instruction
 from chatrobot.language.interpretation import Interpretation
@@ -54,16 +54,6 @@ def test_a_speed_beyond_the_limits_is_refused_without_a_model() -> None:
     talk = ModelTalk(PLAN)
     assert talk.do("drive 1 m at 50 m/s").outcome == "refused"
     assert talk.model.asked == []
-
-
-def test_a_model_keeps_to_the_speed_that_a_person_set_as_the_highest() -> None:
-    talk = ModelTalk("drive 0.5 m at 0.6 m/s\n")
-    talk.do("never go faster than 0.2 m/s")
-    assert talk.do(ASKED).outcome == "completed"
-    speeds = [math.hypot(e.vx_mps, e.vy_mps) for e in talk.events if isinstance(e, TruePose)]
-    assert 0.15 < max(speeds) < 0.22
-    assert talk.do("forward 1 m at 0.5 m/s").outcome == "refused"
-    assert len(talk.model.asked) == 1
 
 
 def test_offline_asks_nobody_and_model_asks_about_everything() -> None:

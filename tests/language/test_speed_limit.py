@@ -68,10 +68,6 @@ def test_what_was_done_faster_before_is_repeated_within_the_limit_only() -> None
     assert said(*before, "do that again") == ("refused", "drive 1 m at 0.2 m/s")
 
 
-def test_a_plan_that_waits_is_changed_within_the_limit() -> None:
-    assert said("max speed 0.2", "when I say go, drive 1 m", "at 0.5 m/s")[1] in ("", "drive 1 m at 0.2 m/s")
-
-
 @pytest.mark.parametrize(
     "end", ["no speed limit", "lift the speed limit", "you may go as fast as you like again"]
 )

@@ -28,7 +28,7 @@ _MEASURES = frozenset({"UNIT", "COUNTER"})
 _AMOUNTS = _MEASURES | {"NUMBER", "SCALE", "FRACTION"}
 _DOES = frozenset({"VERB", "DIR"})
 _TELLING = frozenset({"verdict", "mine"})
-_SUBJECTS = frozenset({"kin", "later"})
+_DOERS = frozenset({"kin", "later"})
 _LOOKS_BACK = 3
 SCALE = 24.0
 """A weight of one is this much in a byte."""
@@ -81,7 +81,7 @@ def orders(text: str, names: Names = ()) -> bool:
 
 def talk_in(reads: Sequence[Read], *, doubtful: bool = False) -> list[Read]:
     """The clauses beside an order that are only talk; with `doubtful`, also those that are rather talk than orders."""
-    talk = [read for read in reads if _is_talk(read, MAYBE_ORDER if doubtful else TALK_OF_MOTION)]
+    talk = [read for read in reads if _is_talk(read, doubtful=doubtful)]
     talk += _statements(reads)
     if not any(
         map(_does, (read for read in reads if read not in talk))
@@ -117,17 +117,18 @@ def without_requests(text: str, names: Names = ()) -> str:
     return " ".join(parts) if found else ""
 
 
-def _is_talk(read: Read, limit_of_motion: float) -> bool:
+def _is_talk(read: Read, *, doubtful: bool) -> bool:
     clause = read.clause
+    limit_of_motion = MAYBE_ORDER if doubtful else TALK_OF_MOTION
     limit = limit_of_motion if clause.moves else TALK
-    is_others = limit_of_motion == MAYBE_ORDER and _has_own_subject(clause)
+    is_others = doubtful and _has_own_subject(clause)
     return (clause.talks or is_others) and not clause.binds and read.log_odds < limit
 
 
 def _has_own_subject(clause: Clause) -> bool:
     """`…, I'll go back 2 m`: what somebody else than the robot does."""
     pairs = itertools.pairwise(sign.label for sign in clause.signs)
-    return any(before in _SUBJECTS and label == "VERB" for before, label in pairs)
+    return any(before in _DOERS and label == "VERB" for before, label in pairs)
 
 
 def _does(read: Read) -> bool:

@@ -110,10 +110,8 @@ def straight_to_start(whole: Frame, context: Context, pace: Pace) -> list[Step] 
         if abs(abs(off_rad) - math.pi / 2) > FAR_RAD / 4:
             raise Unclear("which_side", whole.text)
         return [Drive(way_m, direction_rad=math.copysign(math.pi / 2, off_rad), speed_mps=pace.speed(whole))]
-    reverses, is_behind = (
-        whole.direction == "back" and not says_only_back,
-        math.pi - abs(off_rad) <= FAR_RAD / 4,
-    )
+    reverses = whole.direction == "back" and not says_only_back
+    is_behind = math.pi - abs(off_rad) <= FAR_RAD / 4
     if reverses and not is_behind:
         raise Unclear("which_way", whole.text)
     if not is_behind or not (reverses or "backing" in whole.flags):

@@ -114,16 +114,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         name = "faster" if re.search("速|快|慢", fold.text) else "scale"
         whole.q[name] = quantity(name, fold.number, fold.text)
     whole = _round_other_way(before, whole)
-    kinds = {isinstance(step, Drive) for step in _leaves(before) if not isinstance(step, Wait)}
-    if (
-        "other_way" in whole.flags
-        and "mirrored" not in whole.flags
-        and len(kinds) > 1
-        and not whole.has_extent
-    ):
-        raise Unclear(
-            "unclear_motion", whole.text
-        )  # `drive 2 m, turn right`, then `the other way`: which of them?
+    _check_other_way(before, whole)
     before, whole = _mirrored(before, whole)
     if whole.direction in SIDES and any(isinstance(step, (Turn, Arc)) for step in _leaves(before)):
         whole = whole.copy()  # `the same but right`, of a turn and a drive: of the turn
@@ -181,6 +172,18 @@ def _round_other_way(steps: Sequence[Step], whole: Frame) -> Frame:
     whole = whole.copy()
     whole.flags = (whole.flags - {"other_way"}) | {"mirrored"}
     return whole
+
+
+def _check_other_way(steps: Sequence[Step], whole: Frame) -> None:
+    """`Drive 2 m, turn right`, then `the other way`: which of them?
+
+    Raises:
+        Unclear: for the opposite of drives and turns together.
+    """
+    kinds = {isinstance(step, Drive) for step in _leaves(steps) if not isinstance(step, Wait)}
+    is_opposite = "other_way" in whole.flags and "mirrored" not in whole.flags and not whole.has_extent
+    if is_opposite and len(kinds) > 1:
+        raise Unclear("unclear_motion", whole.text)
 
 
 def _mirrored(steps: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Frame]:

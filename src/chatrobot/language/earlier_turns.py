@@ -24,7 +24,7 @@ from chatrobot.language.talk import not_ordered
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Turn
+from chatrobot.plan.steps import Arc, Drive, Plan, Turn
 
 _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
 """Flags of what points at the motion before or is a motion itself, and answers no question."""
@@ -47,17 +47,8 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     plain = _without_reason(plain, reading)
     if any(_tells_of_others({sign.label for sign in read.clause.signs}) for read in read_acts(plain)):
         return None  # `now you are 2 m away`
-    if order_log_odds(read_acts(normalise(pending))) < MAYBE_ORDER:
+    if not _is_open(pending, reading):
         return None
-    if form(reading.language, "talk", "confirms").fullmatch(normalise(pending).strip()):
-        return None  # it said yes to what was done
-    told = not pending.rstrip().endswith("?") and not_ordered(
-        normalise(pending), reading.language, None, reading.context.dialogue
-    )
-    if told:
-        return None  # `home, sweet home`
-    if changes_nothing_said(normalise(pending), reading):
-        return None  # it was to change a plan, and did not: nothing is to stay of it
     pending = _without_talk(pending, reading)
     before = rephrased(normalise(pending), reading.language).rstrip(" .!")
     if _lacks_nothing(before, reading):
@@ -83,6 +74,10 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
             found = read_command(joined, reading)
         except Unclear:
             continue
+        if found.plan is not None and _goes_on(found.plan, reading.context.dialogue.offered):
+            return (
+                None  # `forward 2 m, perfect`, which was asked about, then `turn left`: no yes to the first
+            )
         if found.outcome == "plan":  # what tells nothing of the plan that was asked about is no yes to it
             is_told = any(a.kind in _TELLING or a.kind.startswith("unit") for a in atoms)
             return found if is_told or found.plan != reading.context.dialogue.offered else None
@@ -90,6 +85,26 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     return None
+
+
+def _is_open(pending: str, reading: Reading) -> bool:
+    """Whether what was asked back about orders something that an answer can complete."""
+    plain, language = normalise(pending), reading.language
+    if order_log_odds(read_acts(plain)) < MAYBE_ORDER:
+        return False
+    if form(language, "talk", "confirms").fullmatch(plain.strip()):
+        return False  # it said yes to what was done
+    is_asked = pending.rstrip().endswith("?")
+    if not is_asked and not_ordered(plain, language, None, reading.context.dialogue):
+        return False  # `home, sweet home`
+    return not changes_nothing_said(
+        plain, reading
+    )  # it was to change a plan, and did not: nothing of it is to stay
+
+
+def _goes_on(plan: Plan, offered: Plan | None) -> bool:
+    """Whether a plan does what was offered, and more after it."""
+    return offered is not None and plan != offered and plan.steps[: len(offered.steps)] == offered.steps
 
 
 def _side_as_before(atoms: list[Atom], reading: Reading) -> str:

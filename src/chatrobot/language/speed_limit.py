@@ -63,8 +63,10 @@ def within_limit(meant: Interpretation, limit_mps: float, profile: RobotProfile)
         return meant
     slowed, language = plan_within(plan, limit_mps, profile), meant.language
     if meant.plan is None:
-        code = "held" if meant.is_held else "did_you_mean"
-        return meant if slowed == plan else replace(meant, proposal=offer(slowed, language, code=code))
+        if slowed == plan or meant.proposal is None:
+            return meant
+        asked = offer(slowed, language, code="held" if meant.is_held else "did_you_mean")
+        return replace(meant, reply=meant.reply.replace(meant.proposal.say, asked.say), proposal=asked)
     if not any(_says_more(step, limit_mps) for step in plan.steps):
         return replace(meant, plan=slowed)
     asked = offer(slowed, language, code="did_you_mean")

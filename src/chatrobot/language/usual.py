@@ -16,15 +16,17 @@ _AMOUNTS = {"distance": ("length",), "turn": ("angle", "turns", "number")}
 
 
 def read_usual(plain: str, reading: Reading) -> Interpretation | None:
-    """Return the answer to a text that sets the usual distance or turn, or the highest speed; else None.
+    """Return the answer to a text that sets the distance or the turn which is meant where none is said; else None.
 
     Raises:
-        Unclear: what it sets is no length, no angle or no speed.
+        Unclear: what it sets is no length or no angle.
     """
     told, language = forms.read_usual(plain, reading.language), reading.language
     if told is None:
         return None
     amount = _amount_in(told[1], reading, _AMOUNTS[told[0]])
+    if amount is None:
+        raise Unclear("no_unit", told[1])
     if told[0] == "distance":
         reply = say(language, "usual_distance_set", distance_m=f"{amount.number:.3g}")
         usual = Usual(distance_m=amount.number)
@@ -39,24 +41,21 @@ def read_limit(plain: str, reading: Reading) -> Interpretation | None:
     """Return the answer to a text that sets the highest speed, or ends that: `never faster than 0.2 m/s`; else None."""
     language = reading.language
     if forms.ends_limit(plain, language):
-        return Interpretation(
-            "answered", say(language, "speed_limit_ended"), language, usual=Usual(limit_mps=math.inf)
-        )
+        reply = say(language, "speed_limit_ended")
+        return Interpretation("answered", reply, language, usual=Usual(limit_mps=math.inf))
     told = forms.read_limit(plain, language)
-    try:
-        limit_mps = _amount_in(told or "", reading, ("speed", "number")).number  # m/s
-    except Unclear:
+    limit = _amount_in(told, reading, ("speed", "number")) if told else None
+    if limit is None:
         return None
-    reply = say(language, "speed_limit_set", mps=f"{limit_mps:.3g}")
-    return Interpretation("answered", reply, language, usual=Usual(limit_mps=limit_mps))
+    reply = say(language, "speed_limit_set", mps=f"{limit.number:.3g}")
+    return Interpretation("answered", reply, language, usual=Usual(limit_mps=limit.number))
 
 
-def _amount_in(text: str, reading: Reading, kinds: tuple[str, ...]) -> Atom:
+def _amount_in(text: str, reading: Reading, kinds: tuple[str, ...]) -> Atom | None:
+    """The one amount that a text is, of these kinds and positive; None where it is anything else."""
     atoms = [atom for atom in reading.atoms(text) if atom.kind not in SILENT]
     is_one = len(atoms) == 1 and atoms[0].kind == "q" and atoms[0].value in kinds
-    if not is_one or not 0 < atoms[0].number < math.inf:
-        raise Unclear("no_unit", text)
-    return atoms[0]
+    return atoms[0] if is_one and 0 < atoms[0].number < math.inf else None
 
 
 def from_now_on(frames: list[Frame], reading: Reading) -> Interpretation | None:

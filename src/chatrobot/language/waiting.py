@@ -82,9 +82,6 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
         return asked_back(problem, language) if agreed is not None else None
     if found is None:
         return None
-    goes_on = found != offered and found.steps[: len(offered.steps)] == offered.steps
-    if agreed is None and goes_on and meant(text, _without_waiting(context)).plan is not None:
-        return None  # an order of its own; to what was asked about nobody said yes
     done = planned(list(found.steps), language)
     was_clear = bool(context.dialogue.turns) and context.dialogue.turns[-1].outcome == "refused"
     if agreed is not None or (was_clear and _corrects(text, language)) or meant(text, context).plan == found:

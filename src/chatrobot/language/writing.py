@@ -51,6 +51,7 @@ def write(frames: list[Frame], pace: Pace, memory: Memory) -> list[Step]:
     _check_amounts(frames)
     _check_opener(frames)
     _check_beside(frames)
+    _check_places(frames)
     legs = paced_legs(frames, pace)
     if legs is not None:
         return legs
@@ -79,17 +80,11 @@ def _check_beside(frames: list[Frame]) -> None:
     Raises:
         Unclear: where a turn is said to be beside something, and is joined with no motion; for two drives at a time.
     """
-    aslant = next((frame for frame in frames if frame.place and "sideways" in frame.flags), None)
-    if aslant is not None:
-        raise Unclear(
-            "unclear_motion", aslant.text
-        )  # `to the charger, but sideways`: the way there has turns
     for before, frame in itertools.pairwise(frames):
         both = "length" in frame.q and "length" in before.q and not (before.rot or before.verb in TURN)
         if "while" in frame.flags and both and frame.direction in SIDES and frame.verb not in TURN:
-            raise Unclear(
-                "unclear_motion", frame.text
-            )  # `1 m forward and 1 m right at the same time`: aslant?
+            # `1 m forward and 1 m right at the same time`: aslant?
+            raise Unclear("unclear_motion", frame.text)
     for frame in frames:
         if (
             "while" in frame.flags
@@ -99,6 +94,17 @@ def _check_beside(frames: list[Frame]) -> None:
             if len(frames) > 1:
                 raise Unclear("unclear_motion", frame.text)
             frame.flags.discard("while")
+
+
+def _check_places(frames: list[Frame]) -> None:
+    """`To the charger, but sideways`: the way there has turns.
+
+    Raises:
+        Unclear: for such a place.
+    """
+    for frame in frames:
+        if frame.place and "sideways" in frame.flags:
+            raise Unclear("unclear_motion", frame.text)
 
 
 def _check_unsaid(unsaid: list[Frame], frames: list[Frame]) -> None:
