@@ -29,6 +29,8 @@ _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
+_OFTEN = 12
+"""A bare number above is rather an amount than so many times."""
 MEANT = "meant"
 """The flag of what corrects the turn before."""
 CORRECTING = frozenset({MEANT, "short_of"})
@@ -201,9 +203,15 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
 def _in_the_unit_of(before: Atom, number: Atom) -> Atom:
     """`2 metres, no, make it 3`: the unit was said already; but not `half a metre, no, make it 75`.
 
+    `5 times, no, make it 3` is so often; but not `twice, no, make it 45`.
+
     Raises:
-        Unclear: where it would be far.
+        Unclear: where it would be far, or often.
     """
+    if (before.value, number.value) == ("times", "number"):
+        if number.number > max(_OFTEN, before.number):
+            raise Unclear("no_unit", number.text)
+        return quantity("times", number.number, number.text, before.role)
     factor = _UNIT_FACTOR.fullmatch(before.role)
     if number.kind != "q" or number.value != "number" or before.value == "number" or factor is None:
         return number
@@ -235,7 +243,7 @@ def _same_kind(atoms: list[Atom], piece: Atom) -> int | None:
         if atom.kind == piece.kind == "q" and (
             atom.value in (piece.value, "number")
             or {atom.value, piece.value} <= {"angle", "turns"}
-            or (piece.value == "number" and atom.value in ("length", "angle"))
+            or (piece.value == "number" and atom.value in ("length", "angle", "times"))
         ):
             return i
         sideways = piece.kind in ("dir", "rot") and atom.kind in ("dir", "rot")

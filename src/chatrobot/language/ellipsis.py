@@ -162,6 +162,8 @@ def _meant_unit(frame: Frame, value: float, state: State) -> tuple[str, float] |
     counts_rounds = "more" in frame.flags and not frame.moves and value < _LEAST_MORE
     if counts_rounds and state.last in ("turn", "drive") and state.unit_m != 1.0:
         raise Unclear("unclear_motion", frame.text)
+    if counts_rounds and state.last == "turn":
+        raise Unclear("no_unit", frame.q["number"].text)  # `3 m ahead, a quarter turn, another 1.5`
     degrees = _means_degrees(frame, value) and not _goes_on_aside(frame, state)
     if "units_said" in frame.flags and not degrees:
         if frame.turning:

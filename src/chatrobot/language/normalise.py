@@ -22,6 +22,9 @@ _QUOTES = str.maketrans(
         "‑": "-",
         "×": " x ",
         "·": " ",
+        "º": "°",
+        "˚": "°",
+        "٫": ".",
         "，": ", ",
         "→": ";",
         "➡": ";",
@@ -29,6 +32,8 @@ _QUOTES = str.maketrans(
     }
 )
 _CIRCLED = re.compile(r"[①-⑳❶-❿⑴-⒇]")
+_GROUPED = re.compile(r"(?<![\d.,])([1-9]\d{0,2}(?:\.\d{3})+),(\d+)(?![\d,.])")
+_RAISED = re.compile(r"(?<=\d)(?=[⁰¹²³⁴-⁹])")
 _ELLIPSIS = re.compile(r"\.{2,}|…+")
 _HAN = re.compile(r"[\u3400-\u9fff]")
 _REDOUBLED = re.compile(r"([^\W\d一二两三四五六七八九十百千半a-z])一\1")  # 挪一挪
@@ -48,12 +53,14 @@ def _retroflex() -> re.Pattern[str]:
 
 def normalise(text: str) -> str:
     """Lower case, compatibility forms folded, simplified characters, no control characters, no emoji."""
-    # An ellipsis must not fold into full stops, and "1½" must not fold into "11/2".
+    # An ellipsis must not fold into full stops, "1½" not into "11/2", and "1²" not into "12".
     # An item's number in a circle must not run into what stands beside it.
-    text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", _CIRCLED.sub(" ; ", text.translate(_QUOTES)))
+    text = re.sub(r"(?<=\d)(?=[½¼¾⅓⅔])", " ", _RAISED.sub("^", text))
+    text = _CIRCLED.sub(" ; ", text.translate(_QUOTES))
     text = unicodedata.normalize("NFKC", _ELLIPSIS.sub("…", text).replace("…", "\ue000"))
     text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
     text = _retroflex().sub("", _REDOUBLED.sub(r"\1", text))
+    text = _GROUPED.sub(lambda found: f"{found[1].replace('.', '')}.{found[2]}", text)  # 1.000,5
     kept = [c if _kept(c) else " " for c in text]
     return _SPACES.sub(" ", "".join(kept)).strip()
 

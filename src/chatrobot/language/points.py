@@ -20,23 +20,31 @@ _POINT = re.compile(
     re.IGNORECASE,
 )
 _WRITTEN = re.compile(rf"\({_NUMBER}, {_NUMBER}(?:, {_NUMBER})?\)")
+_AT_ORIGIN_M, _AT_ORIGIN_RAD = 0.05, math.radians(3.0)
 _LETTERS = str.maketrans("0123456789.-+,e", "abcdefghijkmpqu", "() ")
 _TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
 class _Words:
-    """How a language leads to a point and goes on behind it, and how it says the heading that a place has."""
+    """How a language leads to a point, goes on behind it, says the heading that a place has, and tells the frame."""
 
     lead: re.Pattern[str]
     heading: re.Pattern[str]
     its_heading: str
+    axes: re.Pattern[str]
 
 
 def with_points(text: str, context: Context) -> tuple[str, Context]:
-    """A text in which each point, metres in the odom frame, is a place of this text alone, in one word."""
+    """A text in which each point, metres in the odom frame, is a place of this text alone, in one word.
+
+    That x points ahead and y to the left is the frame that is meant anyway (REP 103), as long as the robot stands
+    where that began; any other is not read.
+    """
     if _TWIST.search(text) or not _POINT.search(text):
         return text, context
+    for words in _words() if _is_at_origin(context.state.pose) else ():
+        text = words.axes.sub(lambda told: "" if told.end() == len(told.string) else told["mark"], text)
     places: dict[str, Place] = {}
     out, at = "", 0
     for found in _POINT.finditer(text):
@@ -48,6 +56,10 @@ def with_points(text: str, context: Context) -> tuple[str, Context]:
         at = end
     dialogue = replace(context.dialogue, places={**context.dialogue.places, **places})
     return out + text[at:], replace(context, dialogue=dialogue)
+
+
+def _is_at_origin(pose: Pose) -> bool:
+    return math.hypot(pose.x_m, pose.y_m) < _AT_ORIGIN_M and abs(pose.yaw_rad) < _AT_ORIGIN_RAD
 
 
 def naming_points(said: str, context: Context) -> str:
@@ -90,6 +102,7 @@ def _words() -> tuple[_Words, ...]:
             re.compile(table["lead"], re.IGNORECASE),
             re.compile(table["heading"], re.IGNORECASE),
             table["its_heading"],
+            re.compile(table["axes"], re.IGNORECASE),
         )
         for table in tables
     )

@@ -35,7 +35,8 @@ def _dialect(language: str) -> tuple[dict[str, str], re.Pattern[str]]:
 
 
 _ITEM = re.compile(r"\s*\(?(\d{1,2})(?:[、:)] ?|[.,](?: |(?=[^\d\s])))")
-_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})[.):](?: ?(?=[a-z])| (?=\d))")
+_INLINE = re.compile(r"(?:^|(?<=\s))\(?(\d{1,2})(?:[.:]| ?\))(?: ?(?=[a-z])| (?=\d))")
+_BEFORE_LIST = re.compile(r"(?:^|[:：])\s*$")
 _LETTERED = re.compile(r"(?:^|(?<=\s))\(?([a-h])\) ?(?=[a-z\d])")
 _LETTERS = "abcdefgh"
 _NUMBERED = re.compile(r"(?:^|(?<=[\n;。:!.]))\s*(\d{1,2})[、:] ?(?=[^\d\s])")
@@ -47,8 +48,11 @@ def without_numbers(text: str) -> str:
     items = [_ITEM.match(line) for line in lines]
     if len(items) > 1 and [int(item[1]) if item else 0 for item in items] == [*range(1, len(items) + 1)]:
         return "\n".join([*heading, *(_ITEM.sub("; ", line, count=1) for line in lines)])
-    if _INLINE.match(text) and _run_on(_INLINE.findall(text)):  # `1. go 1 m 2. turn left`
-        return _INLINE.sub("; ", text)
+    first = _INLINE.search(text)
+    if first and _BEFORE_LIST.search(text[: first.start()]) and _run_on(_INLINE.findall(text)):
+        return text[: first.start()] + _INLINE.sub(
+            "; ", text[first.end() :]
+        )  # `Do this: 1) go 1 m 2) turn left`
     letters = _LETTERED.findall(text)
     if len(letters) > 1 and "".join(letters) == _LETTERS[: len(letters)]:
         return _LETTERED.sub("; ", text)

@@ -11,7 +11,7 @@ from functools import cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.frames import GO, Frame
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 
 _SAME = ("length", "angle", "time")
@@ -155,12 +155,26 @@ def _told(out: Sequence[Atom], atoms: Sequence[Atom], i: int, again: int, said: 
     dimension = _dimension(atoms[again])
     if said and dimension in _SPEEDS:
         return next((atom for atom in reversed(out) if atom.kind == "q" and atom.value == dimension), None)
+    covered = _covered(out, dimension)
+    if covered is not None and (said or _is_another_unit(covered, atoms, i, again)):
+        return covered
     told = _last_amount(out)
     if told is None or _dimension(told) != dimension:
         return None
     apart = any(atom.value == "strong" for atom in atoms[i:again] if atom.kind == "sep")
     is_next = out[-1] is told and not apart
     return told if said or (is_next and _is_another_unit(told, atoms, i, again)) else None
+
+
+def _covered(out: Sequence[Atom], dimension: str) -> Atom | None:
+    """`10 s at 0.3 m/s, that makes 3 m`: what the motion before comes to, by its speed and its time."""
+    begin = next((i + 1 for i in range(len(out) - 1, -1, -1) if out[i].kind in ("sep", "conn")), 0)
+    told = {atom.value: atom for atom in out[begin:] if atom.kind == "q"}
+    pace = {"length": "speed", "angle": "rate"}.get(dimension, "")
+    if not told.keys() >= {"time", pace} or told.keys() & {"length", "angle", "turns"}:
+        return None
+    text = f"{told[pace].text} {told['time'].text}"
+    return quantity(dimension, told[pace].number * told["time"].number, text)
 
 
 def _is_another_unit(before: Atom, atoms: Sequence[Atom], i: int, end: int) -> bool:
