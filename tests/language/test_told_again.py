@@ -1,4 +1,4 @@
-"""What is told once more in other words: a count put right, what a motion comes to, a list under a heading, the frame."""
+"""What is told once more in other words: a count put right, what a motion comes to, a heading, the frame."""
 
 from __future__ import annotations
 

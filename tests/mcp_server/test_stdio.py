@@ -34,7 +34,9 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
 
     async def task() -> None:
         async with over_stdio(tmp_path, "--record", str(path)) as agent:
-            rehearsed = await agent.data("rehearse", plan="drive 0.4 m\nturn left 90 deg")
+            turn = {"kind": "turn", "angle_rad": 1.5707963267948966}
+            as_object = {"steps": [{"kind": "drive", "distance_m": 0.4}, turn]}
+            rehearsed = await agent.data("rehearse", plan=as_object)
             assert rehearsed["outcome"] == "completed"
             assert rehearsed["rehearsed"]["length_m"] == pytest.approx(0.4, abs=0.01)
             assert not agent.wire.velocities.all or not any(any(t) for _, t in agent.wire.velocities.all)
@@ -149,7 +151,7 @@ def say(process: subprocess.Popen[bytes], **message: object) -> None:
     process.stdin.flush()
 
 
-def test_garbage_is_passed_over_output_is_the_protocol_alone_and_asked_to_end_it_stops_the_robot(
+def test_garbage_is_answered_output_is_the_protocol_alone_and_asked_to_end_it_stops_the_robot(
     tmp_path: Path,
 ) -> None:
     server = subprocess.Popen(
@@ -177,7 +179,8 @@ def test_garbage_is_passed_over_output_is_the_protocol_alone_and_asked_to_end_it
     answers: dict[Any, Any] = {}
     while 3 not in answers:
         (message,) = json_lines(server.stdout.readline().decode())
-        answers[message.get("id")] = message.get("result")
+        answers[message.get("id")] = message.get("result", message.get("error"))
+    assert answers[None]["code"] == -32700
     assert answers[1]["serverInfo"]["name"] == "chatrobot"
     assert "characters" in answers[2]["content"][0]["text"]
     assert answers[2]["isError"]

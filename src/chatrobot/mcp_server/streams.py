@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import os
 import threading
 from collections.abc import AsyncIterator, Callable
@@ -20,6 +21,11 @@ STDIN, STDOUT, STDERR = 0, 1, 2
 READ_BYTES = 65_536
 MOST_LINE_BYTES = 4_000_000
 """As much as the SDK takes in one HTTP request; a longer line is dropped."""
+
+_PARSE_ERROR = (
+    '{"jsonrpc":"2.0","id":null,"error":{"code":-32700,"message":"Parse error: no JSON in this line"}}\n'
+)
+"""JSON-RPC 2.0, section 5.1."""
 
 
 class LineSplitter:
@@ -65,9 +71,12 @@ class LineStream:
         threading.Thread(target=self._read, name="mcp-client", daemon=True).start()
 
     async def __aiter__(self) -> AsyncIterator[str]:
-        """Yield each line, until the client is gone."""
+        """Yield each line of JSON, until the client is gone; any other is answered at once."""
         while (line := await self._lines.get()) is not None:
-            yield line
+            if _is_json(line):
+                yield line
+            elif line.strip():
+                await self.write(_PARSE_ERROR)
 
     async def write(self, text: str) -> None:
         """Write all of `text`; a client that is gone is noticed by who reads."""
@@ -103,6 +112,14 @@ class LineStream:
             putting.close()
             raise
         handed_on.result()
+
+
+def _is_json(line: str) -> bool:
+    try:
+        json.loads(line)
+    except (ValueError, RecursionError):
+        return False
+    return True
 
 
 @contextlib.contextmanager

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import json
 import time
 from collections.abc import Awaitable, Callable
 from typing import Annotated, Any
 
 from mcp.server.mcpserver import Context
 from mcp_types import CallToolResult, ContentBlock, ImageContent
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from chatrobot.core.errors import ChatRobotError, InputError
 from chatrobot.core.events import Event, Looked
@@ -34,6 +35,14 @@ LINE = "chatrobot.line"
 """Where an HTTP request keeps its `Line`."""
 
 
+def _as_json(plan: Any) -> Any:
+    """Models send a plan in its JSON form as an object, too."""
+    return json.dumps(plan) if isinstance(plan, dict) else plan
+
+
+PlanArgument = Annotated[str, BeforeValidator(_as_json)]
+
+
 class Tools:
     """The functions behind the tools; each returns an answer, also where something is wrong."""
 
@@ -43,11 +52,15 @@ class Tools:
         self._programs = ProgramTool(robot, self._calls)
         self.leave = self._calls.leave
 
-    async def instruct(self, ctx: Context[Any, Any], text: str = "", plan: str = "") -> CallToolResult:
+    async def instruct(
+        self, ctx: Context[Any, Any], text: str = "", plan: PlanArgument = ""
+    ) -> CallToolResult:
         """Do what is said, or a plan; return once it has ended."""
         return await self._do(ctx, text, plan, rehearse_only=False)
 
-    async def rehearse(self, ctx: Context[Any, Any], text: str = "", plan: str = "") -> CallToolResult:
+    async def rehearse(
+        self, ctx: Context[Any, Any], text: str = "", plan: PlanArgument = ""
+    ) -> CallToolResult:
         """Try what `instruct` would do, without moving."""
         return await self._do(ctx, text, plan, rehearse_only=True)
 
@@ -189,7 +202,7 @@ class Tools:
 def _problem_with(text: str, plan: str) -> str:
     """Say what is wrong with the arguments; "" where nothing is."""
     if bool(text) == bool(plan):
-        return "Give either text or plan, not both and not none."
+        return "Give one of the arguments `text` and `plan`, not both and not none."
     if len(text) > MOST_TEXT_CHARS:
         return (
             f"text has {len(text)} characters, at most {MOST_TEXT_CHARS} are read: say it in several calls."

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 
 from chatrobot.core.wiring import Wiring
-from chatrobot.link.topic_link import REPLY, STOP, USER_INPUT
+from chatrobot.link.topic_link import CONTROL, OPERATOR, REPLY, STOP, USER_INPUT
 from chatrobot.nodes.operator import OperatorBeat
 from chatrobot.reflex import is_stop
 from chatrobot.wire.connect import Connect, connect_wire, is_on_this_machine
@@ -49,7 +49,7 @@ class InputNode:
         """Publish a line. A stop is out at once; anything else waits a moment for somebody to listen.
 
         Returns:
-            False where nobody listens.
+            False where nobody listens, or only control does.
         """
         text = _COMMANDS.get(text.strip().casefold(), text)
         if is_stop(text):
@@ -63,7 +63,17 @@ class InputNode:
             self._has_met = True
         self._operator.claim(text)
         self._wire.publish(USER_INPUT, Text(text))
-        return heard
+        return heard and not self._is_control_alone()
+
+    def _is_control_alone(self) -> bool:
+        """Whether only control listens, for stops: base understands, and hears operators as nobody else does."""
+        if self._wire.wait_for_listener(OPERATOR, Text, 0.0):
+            return False
+        is_second = self._wire.wait_for_listener(USER_INPUT, Text, 0.0, count=2)
+        control = self._wire.resolve(CONTROL)
+        return not is_second and any(
+            end.topic == control and end.role == "publishes" for end in self._wire.survey()
+        )
 
     def resolved(self, topic: str) -> str:
         """Return the name of that topic on the wire."""
