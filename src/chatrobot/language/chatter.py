@@ -95,8 +95,10 @@ def _of_clause(clause: list[Atom]) -> list[Atom]:
 
 
 def _without_manner(atoms: Sequence[Atom], i: int) -> Atom:
-    """An unknown adverb of manner (`majestically`) changes no geometry."""
+    """An unknown adverb of manner (`majestically`) changes no geometry; without an amount it may be the order."""
     atom = atoms[i]
+    if not any(each.kind in ("q", "shape", "place") for each in atoms):
+        return atom
     manner = atom.kind == "unknown" and atom.text.endswith("ly") and len(atom.text) > 4
     manner = manner and (i == 0 or atoms[i - 1].kind in _BEFORE_MANNER)
     return Atom("filler", "x", atom.text) if manner and atom.text not in _words()["not_manner"] else atom
