@@ -13,6 +13,8 @@ from tests.plan.kernels import pass_all
 from tests.plan.robots import MECANUM
 from tests.plan.worlds import WALL_AHEAD, BoxWorld, flat
 
+AT_THE_WALL = Pose(2.0 - 0.23, 0.0, 0.0)
+
 
 def rehearsed(text: str, world: BoxWorld = WALL_AHEAD, start: Pose = ORIGIN) -> Rehearsal:
     return rehearse(parse_plan(text), MECANUM, world, start, pass_all)
@@ -56,13 +58,20 @@ def test_a_turn_is_offered_as_far_as_it_goes() -> None:
     assert "deg" in format_plan(found.possible)
 
 
-@pytest.mark.parametrize(
-    "text", ["drive 1 m", "turn left 90 deg", "turn left 30 deg\nturn right 30 deg\ndrive 1 m"]
-)
+@pytest.mark.parametrize("text", ["drive 1 m", "drive 0.1 m\nturn left 90 deg"])
 def test_nothing_is_offered_where_nothing_useful_is_free(text: str) -> None:
-    found = rehearsed(text, start=Pose(2.0 - 0.23, 0.0, 0.0))
+    found = rehearsed(text, start=AT_THE_WALL)
     assert not found.ok
     assert found.possible is None
+
+
+@pytest.mark.parametrize(
+    "text", ["turn left 90 deg", "turn left 30 deg; turn right 30 deg; drive 1 m toward 180 deg", "go to 0 1"]
+)
+def test_what_cannot_begin_beside_a_wall_is_offered_after_a_drive_away_from_it(text: str) -> None:
+    offered = possible(text.replace("; ", "\n"), start=AT_THE_WALL)
+    assert offered == f"drive 0.2 m back; {text.replace(' toward 180 deg', ' back')}"
+    assert rehearsed(offered.replace("; ", "\n"), start=AT_THE_WALL).ok
 
 
 def test_what_nothing_blocks_offers_nothing() -> None:

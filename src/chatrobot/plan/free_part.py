@@ -1,9 +1,11 @@
-"""The part of a plan that can be done where one of its motions is blocked: all before it, and the free part of that."""
+"""What can be done of a plan where one of its motions is blocked: all before it, the free part of that, or all of it
+after a short drive away from what stands there.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,8 +16,10 @@ from chatrobot.plan.context import Impossible, LoweringContext
 from chatrobot.plan.known_world import Floats
 from chatrobot.plan.lowering import PlannedMotion
 from chatrobot.plan.split import Reached, split
+from chatrobot.plan.steps import Drive
 from chatrobot.plan.swept_path import STANDING
 from chatrobot.plan.trajectory import CoreMotion, RampedTwist
+from chatrobot.robots.profile import RobotProfile
 
 SPARE_M = 0.01
 """What is offered ends so far before what is in the way, at least."""
@@ -27,6 +31,9 @@ STEP_DEG = 5
 LEAST_M = 0.1
 LEAST_DEG = 10
 """Less than this is not worth a question."""
+
+ROOM_M = 0.2
+"""Enough for the footprint of any profile to turn beside what it stood at."""
 
 
 @dataclass(frozen=True)
@@ -67,6 +74,19 @@ def part_up_to(
         return None, {}
     reached = Reached(leg.item.number - 1, True, of_step.index(leg.item), share, of_step[0].start)
     return split(plan.steps, reached, replace(context, pose=here)).executed, free
+
+
+def with_room(plan: Plan, profile: RobotProfile, is_clear: Callable[[Plan], bool]) -> Plan | None:
+    """Return `plan` after a drive of `ROOM_M`, backward first; None where no way is clear or it would be too long."""
+    across = (math.pi / 2, -math.pi / 2) if profile.can_go_sideways else ()
+    for direction_rad in (math.pi, 0.0, *across):
+        try:
+            roomier = Plan((Drive(ROOM_M, direction_rad=direction_rad), *plan.steps))
+        except ValueError:  # it would be too long
+            return None
+        if is_clear(roomier):
+            return roomier
+    return None
 
 
 def nearest_part(plan: Plan, context: LoweringContext, impossible: Impossible) -> Plan | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -27,10 +28,11 @@ from chatrobot.plan.context import (
     too_far,
     too_long,
 )
-from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to
+from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to, with_room
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld, obstacle_values
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion
 from chatrobot.plan.rounding import Rounded, round_corners
+from chatrobot.plan.steps import Drive
 from chatrobot.plan.swept_path import (
     ANY_WAY,
     GovernorCheck,
@@ -49,6 +51,8 @@ from chatrobot.robots.profile import Circle, Point, RobotProfile
 MARGIN_M = 0.04
 """A little more than the governor keeps from what the lidar sees, so that what was rehearsed is not stopped."""
 PAUSE_SPACING_S = 0.05
+STUCK_WITHIN_M = 0.01
+"""What is so near lets a plan not even begin."""
 KNOWN_WITHIN_M = 0.15
 """What was seen so near to a known obstacle is that obstacle."""
 
@@ -90,7 +94,8 @@ class Rehearsal(RehearsedPath):
     """Predicts what a plan would do; its path ends where it ends, or at the first step that cannot be done.
 
     `plan` is the one to run (corners may have been rounded for a base that steers). `possible` is what can be done of
-    a plan that is refused, or else drives more than it may, where that is worth a question.
+    a plan that is refused, or else drives more than it may, where that is worth a question; of one that cannot even
+    begin to turn or to find a way, all of it after a short drive away from what stands there.
     """
 
     plan: Plan
@@ -130,7 +135,14 @@ def rehearse(
     run.findings += rounded.findings
     if not any(finding.severity == "refuse" for finding in run.findings):
         run.drive()
-    return run.result()
+    found = run.result()
+    if not run.is_stuck or isinstance(plan.steps[0], Drive):
+        return found
+    again = partial(
+        rehearse, profile=profile, world=world, start_pose=start_pose, governor=governor,
+        plan_start=plan_start, route_planner=route_planner, seen=seen, most=most,
+    )  # fmt: skip
+    return replace(found, possible=with_room(plan, profile, lambda roomier: again(roomier).ok))
 
 
 class _Run:
@@ -157,6 +169,7 @@ class _Run:
         self.t_s = 0.0
         self.possible: Plan | None = None
         self._blocked_row = math.inf
+        self.is_stuck = False
 
     def drive(self) -> None:
         walk = CoreWalk(self.plan, self.context)
@@ -291,6 +304,7 @@ class _Run:
             self.possible, free = part_up_to(self.plan, self.context, self.legs, contact.row)
             values.update(free)
         if code == "would_collide":
+            self.is_stuck = self.possible is None and driven.sum() < STUCK_WITHIN_M
             values["margin_m"] = MARGIN_M
             values.update(obstacle_values(self._names_of(contact)))
         row = rows[contact.row]
