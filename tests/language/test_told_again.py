@@ -36,6 +36,18 @@ EIGHT = "arc left 360 deg radius 0.6 m; arc right 360 deg radius 0.6 m"
         ("forward 1² m", "unclear"),
         ("fahr 1.250,5 mm vor", "drive 1.2505 m"),
         ("turn left 90º", "turn left 90 deg"),
+        ("back up 2 metres, no scrap that, 1 metre", "drive 1 m back"),
+        ("2 m ahead at 0.2 m/s, no, too slow, make it 0.4", "drive 2 m at 0.4 m/s"),
+        ("zwo Meter zurück, nein Moment, drei Meter zurück, ich hab mich vertan", "drive 3 m back"),
+        ("fahr einsfuffzig vor", "drive 1.5 m"),
+        ("elfhundert Millimeter vor", "drive 1.1 m"),
+        ("advance two decimal five metres", "drive 2.5 m"),
+        ("slide left 2 metres, then slide back to your mark", "drive 2 m left; drive 2 m right"),
+        ("回原点，车头还朝最开始那个方向", "go to 0 0 facing 0 deg"),
+        ("沿轴线往前走3米", "drive 3 m"),
+        ("2 m ahead, then ten seconds standing", "drive 2 m; wait 10 s"),
+        ("2 m ahead, then ten seconds for the doors", "unclear"),
+        ("forward 2 s, then 3 s", "drive 2 s; drive 3 s"),
     ],
 )  # fmt: skip
 def test_it_is_done_once(said: str, plan: str) -> None:
@@ -56,3 +68,38 @@ def test_the_axes_are_not_read_where_the_robot_has_moved() -> None:
 )
 def test_a_step_is_named_by_its_number(said: str, plan: str) -> None:
     assert done("drive 1 m, turn right 90 degrees, drive 60 cm", said) == plan
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        (("drive 2 m", "now the half of this, but backwards"), "drive 1 m back"),
+        (("drive 2 m", "10 seconds"), "unclear"),
+        (("drive for 2 s", "another 3 s"), "drive 3 s"),
+        (("往前走两米", "再走一半那么远"), "drive 1 m"),
+        (
+            ("fahr 1.5 m vor", "jetzt rückwärts die strecke wieder zurück, halb so schnell"),
+            "drive 1.5 m back at 0.15 m/s",
+        ),
+        (
+            ("merk dir die stelle hier mal als ladeplatz", "fahr 1 m vor", "und wieder zum ladeplatz"),
+            'go to 0 0 named "ladeplatz"',
+        ),
+        (
+            ("This spot here's the dock, yeah? Remember it.", "forward 1 m", "back to the dock"),
+            'go to 0 0 named "dock"',
+        ),
+        (
+            (
+                "remember this place as desk",
+                "1 m ahead",
+                "remember this place as mat",
+                "1 m ahead",
+                "go to the mat, no sorry, to the desk",
+            ),
+            'go to 0 0 named "desk"',
+        ),
+    ],
+)
+def test_the_last_turn_is_done(turns: tuple[str, ...], plan: str) -> None:
+    assert done(*turns) == plan

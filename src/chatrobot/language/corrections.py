@@ -28,7 +28,7 @@ _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", 
 _DENIALS = frozenset({"不是", "not that"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
-_PIECE = ("dir", "rot", "q", "pace", "verb", "shape")
+_PIECE = ("dir", "rot", "q", "pace", "verb", "shape", "place")
 _OFTEN = 12
 """A bare number above is rather an amount than so many times."""
 MEANT = "meant"
@@ -247,7 +247,7 @@ def _same_kind(atoms: list[Atom], piece: Atom) -> int | None:
         ):
             return i
         sideways = piece.kind in ("dir", "rot") and atom.kind in ("dir", "rot")
-        if sideways or (atom.kind == piece.kind and piece.kind in ("pace", "verb", "shape")):
+        if sideways or (atom.kind == piece.kind and piece.kind in ("pace", "verb", "shape", "place")):
             return i
     return None
 

@@ -61,11 +61,19 @@ def _check_said_enough(frame: Frame, state: State) -> None:
     """A lone amount or a lone word is a drive only where it goes on with one."""
     if not frame.has_extent and not frame.direction and frame.joined == "none":
         raise Unclear("which_way", frame.text)
-    if not frame.moves and set(frame.q) == {"time"} and state.last != "drive":
+    if not frame.moves and set(frame.q) == {"time"} and not _goes_on_for_a_time(state):
         raise Unclear("unclear_motion", frame.text)
     ellipsis = "again" in frame.flags or ("more" in frame.flags and state.last == "drive")
     if not frame.moves and not frame.has_extent and not ellipsis:
         raise Unclear("unclear_motion", frame.text)
+
+
+def _goes_on_for_a_time(state: State) -> bool:
+    """`2 s ahead, then 3 s`; but not `2 m ahead, then 10 s`: to wait, or to go on?"""
+    if state.last != "drive":
+        return False
+    before = state.steps[-1] if state.steps else None
+    return before.distance_m is None if isinstance(before, Drive) else state.length is None
 
 
 def _leg(frame: Frame, angle: float, state: State, pace: Pace) -> Drive:
