@@ -48,6 +48,16 @@ EIGHT = "arc left 360 deg radius 0.6 m; arc right 360 deg radius 0.6 m"
         ("2 m ahead, then ten seconds standing", "drive 2 m; wait 10 s"),
         ("2 m ahead, then ten seconds for the doors", "unclear"),
         ("forward 2 s, then 3 s", "drive 2 s; drive 3 s"),
+        ("先到(1,0)，停两秒，再到(1,2)", 'go to 1 0 named "(1, 0)"; wait 2 s; go to 1 2 named "(1, 2)"'),
+        ("for i in range(2): 50cm vor, 2s warten", "drive 0.5 m; wait 2 s; drive 0.5 m; wait 2 s"),
+        ("全程15cm/s，前进60cm，再左移60cm", "drive 0.6 m at 0.15 m/s; drive 0.6 m left at 0.15 m/s"),
+        ("1m50 back", "drive 1.5 m back"),
+        ("turn right 30 degrees and turn back to the left by the same angle", "turn right 30 deg; turn left 30 deg"),
+        ("The driving comes last, 1.4 m forward; first turn left", "unclear"),
+        ("you there in the back row, move a metre left please", "unclear"),
+        ("Und Sie da hinten rücken mal einen Meter nach links", "unclear"),
+        ("那边那个同学往左移一米", "unclear"),
+        ("三百六十度评价", "unclear"),
     ],
 )  # fmt: skip
 def test_it_is_done_once(said: str, plan: str) -> None:
@@ -75,6 +85,11 @@ def test_a_step_is_named_by_its_number(said: str, plan: str) -> None:
     [
         (("drive 2 m", "now the half of this, but backwards"), "drive 1 m back"),
         (("drive 2 m", "10 seconds"), "unclear"),
+        (("drive 1.2 m", "that was 20 cm too much, take it back"), "drive 0.2 m back"),
+        (("slide left 1 m", "undo 20 cm"), "drive 0.2 m right"),
+        (("turn left 90", "ok undo 10 degrees of that"), "turn right 10 deg"),
+        (("drive 1.2 m", "1 m would have been enough"), "drive 0.2 m back"),
+        (("前进120公分", "应该前进1米，把多走的退回来"), "drive 0.2 m back"),
         (("drive for 2 s", "another 3 s"), "drive 3 s"),
         (("往前走两米", "再走一半那么远"), "drive 1 m"),
         (

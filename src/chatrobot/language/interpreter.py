@@ -126,8 +126,7 @@ class OfflineInterpreter:
             if problem.code == "condition":
                 return asked_back(problem, language)
             parted = with_tails_parted(with_breaks(text, language), names_in(context))
-            is_other = parted != text and not problem.is_final
-            meant = self._meant(parted, language, context) if is_other else None
+            meant = None if parted == text or problem.is_final else self._meant(parted, language, context)
             if meant is not None and meant.plan is not None:
                 return meant
             reading = Reading(language, context, self._profile)
@@ -188,8 +187,9 @@ class OfflineInterpreter:
             return pointed
         found = likeliest(plain, problem, reading, read, read_anew)
         found = found or of_islands(plain, problem, reading)
-        is_offer = found is not None and found.plan is None
-        return None if is_offer and calls_somebody(reads, reading.language) else found
+        if found is not None and problem.is_final:
+            found = proposed(found, reading.language) or found
+        return None if found and not found.plan and calls_somebody(reads, reading.language) else found
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""
