@@ -279,44 +279,21 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     Raises:
         Unclear: where nothing is left, or an amount is negated.
     """
-    out: list[Atom] = []
-    i, denied, ahead = 0, False, False
+    out, i = _opened_by_no(atoms)
+    denied, ahead = False, False
     sides: list[Atom] = []
     while i < len(atoms):
-        if i == 0 and len(atoms) > 1 and atoms[0].text in ("no", "不") and atoms[1].kind == "sep":
-            if any(a.kind == "flag" and a.value == "total" for a in atoms):
-                out.append(Atom("flag", "short_of", atoms[0].text))
-            i = 2
-            continue
         if atoms[i].kind != "negation" and not (atoms[i].kind == "correction" and atoms[i].text in _DENIALS):
             out.append(atoms[i])
             i += 1
             continue
-        scope, end = Frame(), i + 1
-        while end < len(atoms) and atoms[end].kind not in ("sep", "conn", "negation"):
-            atom = atoms[end]
-            if atom.kind in ("unknown", "refuse", "condition") or (
-                atom.kind == "q" and atom.value in EXTENTS
-            ):
-                raise Unclear("unknown_part", " ".join(a.text for a in atoms[i : end + 1]))
-            if (
-                atom.kind not in ("glue", "filler")
-                and not scope.add(atom)
-                and atom.kind not in ("dir", "rot")
-            ):
-                break  # `don't back up to the right` denies both ways
-            if atom.text == "but":
-                break
-            end += 1
+        scope, end = _forbidden(atoms, i)
         if scope.verb in ("turn", "spin") and not (scope.direction or scope.rot):
             out.append(Atom("flag", "no_turn", "don't turn"))
         if scope.rot in _OTHER_ROT and not scope.verb:
             sides.append(Atom("rot", _OTHER_ROT[scope.rot], atoms[i].text))
         denied |= bool(scope.moves and not scope.verb)  # `drive not a circle`: the verb alone orders nothing
         ahead |= scope.direction == "forward" and not scope.verb
-        announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
-        if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
-            raise Unclear("unknown_part", " ".join(a.text for a in atoms[i:end]))
         i = end
     ordered = ("dir", "rot", "shape") if denied and not any(a.kind in _TOLD for a in out) else _ORDERED
     if len(out) < len(atoms) and not any(a.kind in ordered for a in out):
@@ -327,3 +304,33 @@ def without_negated(atoms: Sequence[Atom]) -> list[Atom]:
     if ahead and not any(a.kind in ("dir", "rot", "shape", "place") for a in out):
         raise Unclear("which_way", " ".join(a.text for a in atoms))  # `a metre, not forward`
     return out
+
+
+def _opened_by_no(atoms: Sequence[Atom]) -> tuple[list[Atom], int]:
+    """What a `no` that opens a sentence stands for, and where the sentence goes on behind it."""
+    if len(atoms) < 2 or atoms[0].text not in ("no", "不") or atoms[1].kind != "sep":
+        return [], 0
+    is_total = any(a.kind == "flag" and a.value == "total" for a in atoms)
+    return [Atom("flag", "short_of", atoms[0].text)] if is_total else [], 2
+
+
+def _forbidden(atoms: Sequence[Atom], at: int) -> tuple[Frame, int]:
+    """What the negation at `at` forbids, and where that ends.
+
+    Raises:
+        Unclear: where it is unknown, or an amount, or announces something.
+    """
+    scope, end = Frame(), at + 1
+    while end < len(atoms) and atoms[end].kind not in ("sep", "conn", "negation"):
+        atom = atoms[end]
+        is_extent = atom.kind == "q" and atom.value in EXTENTS
+        if is_extent or atom.kind in ("unknown", "refuse", "condition"):
+            raise Unclear("unknown_part", " ".join(a.text for a in atoms[at : end + 1]))
+        is_light = atom.kind in ("glue", "filler") or scope.add(atom)
+        if atom.text == "but" or not (is_light or atom.kind in ("dir", "rot")):
+            break  # `don't back up to the right` denies both ways
+        end += 1
+    announces = end < len(atoms) and (atoms[end].kind, atoms[end].value) == ("sep", "colon")
+    if not scope.moves and (announces or not (scope.pace or scope.flags)):  # `never do this: …`
+        raise Unclear("unknown_part", " ".join(a.text for a in atoms[at:end]))
+    return scope, end
