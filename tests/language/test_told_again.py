@@ -58,6 +58,13 @@ EIGHT = "arc left 360 deg radius 0.6 m; arc right 360 deg radius 0.6 m"
         ("Und Sie da hinten rücken mal einen Meter nach links", "unclear"),
         ("那边那个同学往左移一米", "unclear"),
         ("三百六十度评价", "unclear"),
+        ("forward 1 m, then turn left and before that wait 3 s", "drive 1 m; wait 3 s; turn left 90 deg"),
+        ("drive 5 s at 0.1 m/s, then back at twice the speed", "drive 5 s at 0.1 m/s; drive 0.5 m back at 0.2 m/s"),
+        ("turn left, then drive 1 m, no, forget the driving", "unclear"),
+        ("reverse the order", "unclear"),
+        ("Keep going, love, you're nearly there, two more reps!", "unclear"),
+        ("继续走", "unclear"),
+        ("Give me an L: long arm 2 m, short arm 1 m, turning right", "drive 2 m; turn right 90 deg; drive 1 m"),
     ],
 )  # fmt: skip
 def test_it_is_done_once(said: str, plan: str) -> None:

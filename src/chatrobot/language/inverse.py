@@ -25,6 +25,8 @@ def inverse(steps: list[Step], speed_mps: float | None = None) -> list[Step]:
 def _undone(step: Step, speed_mps: float | None) -> list[Step]:
     if isinstance(step, Drive) and step.until is None:
         back = math.remainder(step.direction_rad + math.pi, 2 * math.pi)
+        if speed_mps and step.speed_mps and step.duration_s:  # `5 s at 0.1 m/s, back twice as fast`
+            return [Drive(step.speed_mps * step.duration_s, None, back, speed_mps)]
         return [Drive(step.distance_m, step.duration_s, back, speed_mps or step.speed_mps)]
     if isinstance(step, Turn):
         return [Turn(step.angle_rad, step.duration_s, not step.left, step.rate_radps)]

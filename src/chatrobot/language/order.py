@@ -44,7 +44,11 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     if word.value == "preceding" and end and not leads:  # `A, but before that B, and at the end C`
         return [*tail[: end - 1], _THEN, *head, *tail[end - 1 :]]
     if word.value == "preceding":  # A 之前 B
-        return [*tail, _THEN, *head] if not leads else list(atoms)
+        last = next((i for i in range(at - 1, 0, -1) if (head[i].kind, head[i].value) == ("conn", "then")), 0)
+        kept = (
+            head[: last + 1] if word.text.endswith("that") and last else []
+        )  # `A, then B, and before that C`
+        return [*kept, *tail, _THEN, *head[len(kept) :]] if not leads else list(atoms)
     if leads:
         comma = next((i for i, a in enumerate(tail) if a.kind == "sep" and a.value == "weak"), None)
         at = comma if comma is not None else _second_order(tail, word.text.endswith(" you"))

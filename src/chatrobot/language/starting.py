@@ -12,6 +12,7 @@ from chatrobot.language.frames import GO, Frame
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.rephrase import is_item
+from chatrobot.language.resuming import wants_to_resume
 from chatrobot.language.rules import NEVER, form
 from chatrobot.language.signs import Clause, Sign, clauses_of
 from chatrobot.language.tokens import tokenise
@@ -26,11 +27,15 @@ _LONGEST_NAME = 3
 
 
 def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
-    """Ask back where nothing but `go` is said, and the turn it means was not understood or not done.
+    """Ask back where nothing but `go` is said, and the turn it means was not understood or not done; or where it is to
+    go on, and has not moved.
 
     Raises:
         Unclear: naming what was said in that turn; answers in between are passed over.
     """
+    goes_on = any(_is_bare(frame) and wants_to_resume(" ".join(frame.texts)) for frame in frames)
+    if goes_on and not any(turn.moved for turn in dialogue.turns):
+        raise Unclear("nothing_before")
     last = next((turn for turn in reversed(dialogue.turns) if turn.outcome != "answered"), None)
     not_done = last is not None and last.outcome in ("unclear", "refused")
     is_start = any(frame.verb for frame in frames) and all(_is_bare(frame) for frame in frames)
