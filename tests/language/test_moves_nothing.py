@@ -14,7 +14,6 @@ ALONE = [
     ("drive 1 m left, and by left i mean my left, i am standing in front of you facing you",),
     ("drive 4 m, stopping 2 s after each metre",),
     ("drive 5 metres ahead and halt for 4 seconds at the 3 metre mark",),
-    ("drive an L shape, long side 2 m, short side 1 m to the right",),
     ("face 45 degrees to the right of your starting direction",),
     ("forward 2 m, after one metre slow down to 10 cm per second",),
     ("forward 2 m, come back halfway, then left 50 cm",),

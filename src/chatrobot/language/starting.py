@@ -33,7 +33,7 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     Raises:
         Unclear: naming what was said in that turn; answers in between are passed over.
     """
-    goes_on = any(_is_bare(frame) and wants_to_resume(" ".join(frame.texts)) for frame in frames)
+    goes_on = any(_is_bare(frame) and wants_to_resume(" ".join(frame.texts)) for frame in frames[:1])
     if goes_on and not any(turn.moved for turn in dialogue.turns):
         raise Unclear("nothing_before")
     last = next((turn for turn in reversed(dialogue.turns) if turn.outcome != "answered"), None)
