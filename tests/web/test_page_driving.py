@@ -8,11 +8,11 @@ import math
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from chatrobot.core.events import Telemetry
-from chatrobot.core.geometry import Pose, Twist
+from chatrobot.core.events import Paused, Telemetry
+from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.sim.shapes import Circle
-from tests.web.browser import browser, open_page, page
+from tests.web.browser import DESKTOP, browser, open_page, page
 from tests.web.rig import WebRig, wait_until
 
 __all__ = ["browser", "page"]
@@ -56,6 +56,40 @@ def test_a_key_on_the_stop_button_stops_after_a_finger_slid_off_it(page: Page, r
     wait_until(lambda: len(rig.session.log) == 2)
     button.press("Enter")
     wait_until(lambda: len(rig.session.log) == 4)
+
+
+@pytest.mark.parametrize(
+    ("size", "locale"),
+    [
+        ((320, 568), "de-AT"),
+        ((390, 844), "en-GB"),
+        ((568, 320), "de-AT"),
+        ((768, 1024), "en-GB"),
+        (DESKTOP, "zh-CN"),
+    ],
+)
+def test_stop_stays_where_it_is_and_hammering_on_it_releases_nothing(
+    browser: Browser, rig: WebRig, size: tuple[int, int], locale: str
+) -> None:
+    page = open_page(browser, rig.origin, size, locale=locale)
+    stop, emergency, release = (page.locator(one) for one in ("#stop", "#emergency", "#release"))
+    box, other_box = stop.bounding_box(), emergency.bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    for press in (stop.click, lambda: rig.tell(Paused(1, ORIGIN, "drive 1 m")), emergency.click):
+        press()
+        page.wait_for_timeout(100)
+        assert (stop.bounding_box(), emergency.bounding_box()) == (box, other_box)
+    expect(release).to_be_visible()
+    expect(release).to_be_disabled()
+    for _ in range(3):
+        page.mouse.click(x, y)
+    expect(release).to_be_enabled()
+    page.mouse.click(x, y)
+    page.wait_for_timeout(100)
+    assert ("release",) not in rig.session.log
+    assert page.evaluate("([x, y]) => document.elementFromPoint(x, y).closest('button').id", [x, y]) == "stop"
+    page.context.close()
 
 
 def test_an_emergency_stop_is_its_own_button_and_is_released_by_another(page: Page, rig: WebRig) -> None:

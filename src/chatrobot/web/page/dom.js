@@ -1,5 +1,7 @@
 /** The document: find an element, make one. What comes from elsewhere goes in as text alone, never as markup. */
 
+const REST_MS = 1000;
+
 export function byId(id) {
   return document.getElementById(id);
 }
@@ -18,6 +20,15 @@ export function makeButton(text, className, act) {
   button.type = "button";
   button.addEventListener("click", act);
   return button;
+}
+
+const resting = new WeakMap();
+
+/** Have a button do nothing for a second: a finger that hammers, on it or near by, means no second press. */
+export function restButton(button) {
+  clearTimeout(resting.get(button));
+  button.disabled = true;
+  resting.set(button, setTimeout(() => (button.disabled = false), REST_MS));
 }
 
 /** Set a text only where it changed: a live region would read it out again. */

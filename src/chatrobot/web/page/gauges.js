@@ -68,7 +68,7 @@ function drawState() {
   setText(chip, t(key));
   byId("resume").hidden = pausedTurn === null;
   byId("pause").hidden = pausedTurn !== null;
-  byId("release").hidden = !isLatched || !state.may.has("release");
+  byId("release-banner").hidden = !isLatched || !state.may.has("release");
 }
 
 function limit(text) {

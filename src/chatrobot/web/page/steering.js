@@ -1,7 +1,7 @@
 /** Who steers: one page does, the others watch; what is refused, and a connection that is gone, are said. */
 
 import { on, send, state } from "./connection.js";
-import { byId, setBanner, setText } from "./dom.js";
+import { byId, restButton, setBanner, setText } from "./dom.js";
 import { isStopLineOpen, onStop } from "./stop.js";
 import { onLanguage, t } from "./words.js";
 
@@ -62,6 +62,7 @@ function hearSteering(message) {
 function hearStop(message) {
   const said = { asked: "stop_asked", stopped: "stop_heard", unheard: "stop_unheard", gone: "stop_gone" }[message.is];
   if (said) {
+    restButton(byId("release"));
     clearTimeout(stopTimer);
     setText(byId("stop-said"), t(said));
     byId("stop").classList.add("pressed");
@@ -109,6 +110,7 @@ export function startSteering() {
   });
   on("steering", hearSteering);
   on("refused", (message) => notice(message.text));
+  on("emergency", () => restButton(byId("release")));
   on("gone", (message) => notice(message.text));
   onStop(hearStop);
   byId("take").addEventListener("click", () => send({ do: "take" }));

@@ -1,7 +1,7 @@
 /** The teacher's page: all robots of a class; stop one or all, release, look in, hand out a task and the links. */
 
 import { connect, on, send } from "./connection.js";
-import { byId, make, makeButton, setBanner, setText } from "./dom.js";
+import { byId, make, makeButton, restButton, setBanner, setText } from "./dom.js";
 import { showRecordings, startRecordings } from "./recordings.js";
 import { onStop } from "./stop.js";
 import { firstLanguage, language, onLanguage, setLanguage, startLanguageMenu, t } from "./words.js";
@@ -137,13 +137,16 @@ function draw() {
   for (const robot of robots) drawCard(robot);
   const moving = robots.filter((robot) => robot.moving).length;
   setText(byId("class-state"), t("class_state", { count: robots.length, moving }));
-  byId("release").hidden = !robots.some((robot) => robot.emergency);
+  const isLatched = robots.some((robot) => robot.emergency);
+  if (isLatched && byId("release-banner").hidden) restButton(byId("release"));
+  byId("release-banner").hidden = !isLatched;
 }
 
 function hearStop(message) {
   const said = { asked: "stop_asked", stopped: "stop_heard_all", unheard: "stop_unheard", gone: "stop_gone" }[message.is];
   if (!said) return;
   clearTimeout(saidTimer);
+  restButton(byId("release"));
   setText(byId("stop-said"), t(said));
   saidTimer = setTimeout(() => setText(byId("stop-said"), ""), SAID_MS);
 }
