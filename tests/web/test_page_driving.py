@@ -116,6 +116,32 @@ def test_a_key_drives_while_it_is_held_and_lets_go_once(browser: Browser, rig: W
     page.context.close()
 
 
+def test_keys_drive_from_the_map_and_not_from_menus_buttons_lists_or_after_send(
+    page: Page, rig: WebRig
+) -> None:
+    summary = page.locator("summary", has_text="Places")
+    summary.focus()
+    page.keyboard.press("Enter")
+    for key in ("ArrowDown", "ArrowDown", "ArrowUp", "s"):
+        page.keyboard.press(key, delay=60)
+    expect(page.locator("#places button").first).to_be_focused()
+    page.keyboard.press("Escape")
+    rig.session.wait_for("stop", "the Stop button")
+    expect(page.locator("#places-menu")).not_to_have_attribute("open", "")
+    expect(summary).to_be_focused()
+    for element in ("#follow", "#talk", "#plan-edit"):
+        page.locator(element).focus()
+        page.keyboard.press("w", delay=60)
+    page.locator("#say").fill("forward 1 m")
+    page.get_by_role("button", name="Send").click()
+    page.keyboard.type("was", delay=60)
+    expect(page.locator("#say")).to_have_value("was")
+    assert not any(one[0] == "steer" for one in rig.session.log)
+    page.get_by_role("button", name="Zoom in").click()
+    page.keyboard.press("w", delay=100)
+    wait_until(lambda: any(one[0] == "steer" and one[1] > 0 for one in rig.session.log))
+
+
 @pytest.mark.parametrize("event", ["blur", "contextmenu", "pagehide"])
 def test_the_pad_lets_go_when_the_page_is_left(page: Page, rig: WebRig, event: str) -> None:
     pad = page.locator("#pad").bounding_box()

@@ -73,7 +73,7 @@ def test_stop_ends_a_motion_in_its_middle(page: Page) -> None:
 
 
 def test_a_held_key_moves_the_robot_and_its_release_stops_it(page: Page) -> None:
-    page.get_by_role("button", name="Show everything").focus()
+    page.get_by_role("application", name="Map").focus()
     before = count_pixels(page, "driven")
     page.keyboard.down("s")
     expect(page.locator("#robot-state")).to_have_text("Moving")

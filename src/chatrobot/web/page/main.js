@@ -36,6 +36,23 @@ function startLanguage() {
   });
 }
 
+/** Menus are walked with the arrows, and close with Esc, which stops the robot all the same. */
+function startMenus() {
+  addEventListener("keydown", (event) => {
+    const menu = event.target.closest(".menu[open]");
+    if (event.key === "Escape") {
+      if (menu) menu.querySelector("summary").focus();
+      for (const one of document.querySelectorAll(".menu[open]")) one.open = false;
+    }
+    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!menu || !by) return;
+    event.preventDefault();
+    const stops = [...menu.querySelectorAll("summary, button:enabled")];
+    const at = stops.indexOf(document.activeElement) + by;
+    stops[(at + stops.length) % stops.length].focus();
+  });
+}
+
 startSteering();
 startSayBox();
 startChat();
@@ -49,6 +66,7 @@ startPrograms();
 startStick();
 startSpeech();
 startLanguage();
+startMenus();
 onEditPlan(() => {
   showTab("plan");
   editPlan();

@@ -66,6 +66,7 @@ export function startSayBox() {
   byId("say-form").addEventListener("submit", (event) => {
     event.preventDefault();
     sendBox();
+    box.focus(); // what is typed next is text, and drives nothing
   });
   box.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && !event.isComposing && !state.steers) {

@@ -72,13 +72,17 @@ function beat() {
   if (isHeld) update();
 }
 
+/** A key that is meant for a menu, a list or a text drives nothing; arrows are the map's and the slider's own. */
+function drivesFrom(element, code) {
+  return element === document.body || (element.matches("#floor, #stick-speed") && !code.startsWith("Arrow"));
+}
+
 function keyDown(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) {
     if (held.size) release(); // some systems tell no key coming up beside these
     return;
   }
-  if (!(event.code in KEYS) || isField(event.target) || event.isComposing) return;
-  if (event.code.startsWith("Arrow") && event.target.closest("[role=application], [tabindex]")) return;
+  if (!(event.code in KEYS) || !drivesFrom(event.target, event.code) || event.isComposing) return;
   event.preventDefault();
   if (event.repeat || held.has(event.code)) return;
   held.add(event.code);
@@ -140,6 +144,10 @@ export function startStick() {
   document.addEventListener("freeze", release);
   document.addEventListener("visibilitychange", () => document.hidden && release());
   document.addEventListener("focusin", (event) => isField(event.target) && held.size && release());
+  document.addEventListener("click", ({ target, detail }) => {
+    const button = target.closest(":is(.dock, #map, #drive) button");
+    if (button && detail) button.blur(); // a mouse leaves the focus there, and keys would drive no more
+  });
   startPad();
   startSide(byId("side-left"), 1);
   startSide(byId("side-right"), -1);
