@@ -10,6 +10,7 @@ from chatrobot.core.events import Result, Started
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.web.access import Access
 from chatrobot.web.server import WebServer
+from chatrobot.web.words import told
 from tests.web.browser import (
     DESKTOP,
     PHONE,
@@ -208,3 +209,16 @@ def test_the_newest_stays_in_sight_when_the_keyboard_of_a_phone_comes_up(
     page.set_viewport_size({"width": PHONE[0], "height": 600})
     expect(page.get_by_text("No, not 8 m.")).to_be_in_viewport()
     page.context.close()
+
+
+def test_the_newest_stays_in_sight_beside_a_lesson_after_a_reload(page: Page, rig: WebRig) -> None:
+    lines = [f"Line {number} of the task." for number in range(6)]
+    rig.room.pin("lesson", told("lesson", over=False, head="Task 1", lines=lines, about=[]))
+    for number in range(1, 9):
+        say(page, rig, f"drive {number} m")
+        rig.tell(Result(number, "refused", f"No, not {number} m."))
+    page.reload()
+    expect(page.get_by_text("No, not 8 m.")).to_be_in_viewport()
+    say(page, rig, "drive 9 m")
+    rig.tell(Result(9, "refused", "No, not 9 m."))
+    expect(page.get_by_text("No, not 9 m.")).to_be_in_viewport()

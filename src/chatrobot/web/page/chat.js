@@ -15,6 +15,7 @@ const log = byId("talk");
 const list = byId("turns");
 const entries = new Map();
 let asking = null;
+let isAtEnd = true;
 let editPlan = () => {};
 
 /** Where "Edit" leads: the plan's own panel. */
@@ -63,7 +64,6 @@ function forgetAll() {
 
 /** Do `act` and keep the newest in sight, unless a person has scrolled up to read. */
 function change(act) {
-  const isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < NEAR_END_PX;
   act();
   if (isAtEnd || state.isReplaying) log.scrollTop = log.scrollHeight;
 }
@@ -184,13 +184,15 @@ function noteLine(text, kind = "line") {
   change(() => list.append(make("li", kind, text)));
 }
 
-/** A keyboard that comes up on a phone, or a phone that is turned, does not hide the newest. */
+/** A lesson that comes up above, the keyboard of a phone, or a phone that is turned, does not hide the newest. */
 function keepEndInSight() {
-  let isAtEnd = true;
+  let height = 0;
   log.addEventListener("scroll", () => {
+    if (log.clientHeight !== height) return; // nobody has scrolled: there is less room now
     isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < NEAR_END_PX;
   });
   new ResizeObserver(() => {
+    height = log.clientHeight;
     if (isAtEnd) log.scrollTop = log.scrollHeight;
   }).observe(log);
 }
