@@ -51,7 +51,7 @@ function draw() {
 }
 
 /** By what it does or by what is being done: a stick moves it without a plan. */
-function isMoving() {
+export function isMoving() {
   if (!telemetry) return false;
   const { vx_mps: x, vy_mps: y, wz_radps: turn } = telemetry.twist;
   return telemetry.moving || Math.hypot(x, y) > LEAST_MPS || Math.abs(turn) > LEAST_RADPS;
@@ -110,6 +110,7 @@ export function startGauges() {
     drawState();
   });
   on("steering", drawState);
+  on("still", () => !telemetry || isLatched || limited.textContent || limit(t("stick_still")));
   on("event", hear);
   onLanguage(() => {
     draw();

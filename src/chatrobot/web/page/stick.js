@@ -3,8 +3,9 @@
  * with it, from the page's own thread, so that a page that is frozen is missed at once.
  */
 
-import { on, send, state } from "./connection.js";
+import { on, send, state, tell } from "./connection.js";
 import { byId, isField } from "./dom.js";
+import { isMoving } from "./gauges.js";
 
 const KEYS = {
   KeyW: [1, 0, 0], ArrowUp: [1, 0, 0], KeyS: [-1, 0, 0], ArrowDown: [-1, 0, 0],
@@ -13,6 +14,7 @@ const KEYS = {
 };
 const DEAD = 0.08;
 const FULL = 1;
+const STILL_MS = 800;
 
 const held = new Set();
 const pad = byId("pad");
@@ -22,6 +24,7 @@ let pointer = null;
 let lean = [0, 0];
 let side = 0;
 let isHeld = false;
+let movedMs = 0;
 
 function wanted() {
   let [x, y, turn] = [lean[0], side, lean[1]];
@@ -48,6 +51,7 @@ const isTouched = () => held.size > 0 || pointer !== null || side !== 0;
 function update() {
   if (!state.hello) return;
   if (isTouched() && state.steers) {
+    if (!isHeld) movedMs = performance.now();
     isHeld = true;
     send(wanted());
   } else if (isHeld) {
@@ -69,7 +73,10 @@ function release() {
 function beat() {
   if (!state.steers) return;
   send({ do: "beat", held: isHeld });
-  if (isHeld) update();
+  if (!isHeld) return;
+  update();
+  if (isMoving()) movedMs = performance.now();
+  else if (performance.now() - movedMs > STILL_MS) tell({ is: "still" }); // what was held through a stop has to be let go
 }
 
 /** A key that is meant for a menu, a list or a text drives nothing; arrows are the map's and the slider's own. */
