@@ -361,7 +361,7 @@ def test_fast_is_refused_because_a_talk_is_in_real_time():
 
 @pytest.mark.parametrize("terminal", ["xterm-256color", "dumb"])
 def test_an_edited_program_is_shown_and_asked_about_again(tmp_path, terminal):
-    with console(tmp_path, "--approve", environment={"TERM": terminal}) as chat:
+    with console(tmp_path, environment={"TERM": terminal}) as chat:
         chat.wait_for("›|>")
         chat.enter("Generate a ROS 2 Python program to drive forward 0.4 m")
         chat.wait_for("Do it?")

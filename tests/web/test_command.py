@@ -98,6 +98,11 @@ def test_what_a_page_says_is_driven_and_measured(shared: RunningWeb, page: Clien
     time.sleep(0.3)
     page.say("approve", turn=turn, yes=True)
     assert page.wait_for_event("result", 20.0)["event"]["pose"]["x_m"] == pytest.approx(0.5, abs=0.03)
+    page.say("say", text="write a program that drives forward 20 cm")  # a new one is asked about
+    asked = page.wait_for_event("rehearsed")["event"]
+    assert asked["needs_approval"]
+    page.say("approve", turn=asked["turn"], yes=False)
+    assert page.wait_for_event("result")["event"]["outcome"] == "refused"
     address, recording = [line for line in shared.lines if line]
     assert address == f"Web console: http://127.0.0.1:{shared.port}/"
     assert recording.startswith("Recording to ")

@@ -101,7 +101,8 @@ def _chosen(args: argparse.Namespace) -> tuple[Setup, Sheet | None]:
         setup = setup_of(args, sheet)
     else:
         setup = setup_from(args, programs=True)
-    return replace(setup, options=replace(setup.options, while_moving="replace")), sheet
+    options = replace(setup.options, while_moving="replace", ask_new=not setup.yes)
+    return replace(setup, options=options), sheet
 
 
 def _serve(

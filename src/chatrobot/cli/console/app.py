@@ -52,7 +52,8 @@ def run_console(
     if setup.fast:
         raise UsageError("the console runs in real time", where="--fast", allowed='chatrobot do "…" --fast')
     words = Words(language_of_environment())
-    setup = replace(setup, trace=lesson is not None, options=replace(setup.options, while_moving="replace"))
+    options = replace(setup.options, while_moving="replace", ask_new=not setup.yes)
+    setup = replace(setup, trace=lesson is not None, options=options)
     listeners = _Listeners(lesson)
     connection = meet(setup, listeners.hear)
     controller = listeners.controller = ChatController(connection, words, RealClock(), commands.run)
