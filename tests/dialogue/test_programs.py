@@ -235,6 +235,24 @@ def test_an_edit_is_asked_about_though_this_session_has_not_shown_the_program(ho
     assert result.path_m == pytest.approx(0.2, abs=0.02)
 
 
+def test_an_edit_that_rehearsal_refuses_leaves_the_version_before_it_and_one_that_is_cancelled_is_kept(
+    house: House,
+) -> None:
+    library, first = house.authoring.library, program("self.drive(0.1, 0.0, 1.0)")
+    library.keep(KeptProgram("walk", first))
+    house.on_event = lambda event: (
+        house.session.approve(event.turn, False)
+        if isinstance(event, Rehearsed) and event.needs_approval
+        else None
+    )
+    assert house.edit("walk", program("import os\nos.system('ls')")).outcome == "refused"
+    assert library.get("walk").source == first
+    assert not library.get("walk").rehearsal
+    second = program("self.drive(0.2, 0.0, 1.0)")
+    assert house.edit("walk", second).outcome == "refused"
+    assert (library.get("walk").source, library.get("walk").rehearsal["ok"]) == (second, True)
+
+
 def test_an_edit_of_a_program_that_is_not_kept_is_refused(house: House) -> None:
     result = house.edit("nobody's", program("self.drive(0.2, 0.0, 1.0)"))
     assert (result.outcome, result.path_m) == ("refused", 0.0)

@@ -210,6 +210,36 @@ def test_a_program_is_shown_with_its_log(page: Page, rig: WebRig) -> None:
     expect(programs.get_by_role("log", name="Log")).to_contain_text("0.5 s hello there")
 
 
+def test_what_was_typed_into_a_program_stays_until_rehearsal_takes_it(page: Page, rig: WebRig) -> None:
+    editor, save = page.locator("#program-text"), page.get_by_role("button", name="Save and rehearse")
+    say(page, rig, "write a program")
+    write_program(rig, "print(1)\n")
+    rig.tell(Rehearsed(1, True, 8.0, 0.95, ORIGIN, needs_approval=True))
+    page.get_by_role("log", name="What was said").get_by_role("button", name="Edit").click()
+    expect(page.get_by_label("The plan, one step a line")).to_be_hidden()
+    editor.fill("print(2")
+    save.click()
+    rig.session.wait_for("say_source", "square", "print(2")
+    write_program(rig, "print(1)\n", 2)  # the version before it is asked about
+    rig.tell(Rehearsed(2, True, 8.0, 0.95, ORIGIN, needs_approval=True))
+    expect(editor).to_have_value("print(2")
+    rig.tell(ProgramWritten(3, "another", "offline", "pass\n", ""))
+    expect(page.locator("#program-name")).to_have_text("another")
+    expect(editor).to_be_hidden()
+    write_program(rig, "print(1)\n", 4)
+    expect(editor).to_have_value("print(2")
+    for turn, ok in ((5, False), (6, True)):
+        editor.fill(f"print({turn})")
+        save.click()
+        rig.session.wait_for("say_source", "square", f"print({turn})")
+        write_program(rig, f"print({turn})", turn)
+        rig.tell(Rehearsed(turn, ok, 8.0, 0.95, ORIGIN, needs_approval=ok))
+        rig.tell(Result(turn, "refused", "No."))
+        expect(page.locator("#program-log")).to_contain_text("No.")
+        expect(editor).to_be_visible(visible=not ok)
+    expect(page.locator("#program-about")).to_contain_text("This version is kept now")
+
+
 def test_what_others_wrote_is_text_and_never_markup(page: Page, rig: WebRig) -> None:
     say(page, rig, EVIL)
     rig.tell(Interpreted(1, "model", EVIL, EVIL))

@@ -222,6 +222,11 @@ class Authoring:
         if draft.is_new:
             self.library.keep(draft.program)
 
+    def replaces_kept(self, draft: Draft) -> bool:
+        """Tell whether a person's edit would take the place of another version that is kept."""
+        kept = self.library.find(draft.program.name)
+        return draft.asks and kept is not None and kept.source != draft.program.source
+
     def note_rehearsal(self, draft: Draft, program: ProgramRehearsed, path: Rehearsed) -> None:
         """Keep what the last rehearsal of a kept program showed."""
         self.library.note_rehearsal(

@@ -232,7 +232,7 @@ class ProgramRequests:
         if isinstance(event, ProgramRehearsed):
             about.rehearsed = event
         elif isinstance(event, Rehearsed) and about.rehearsed is not None:
-            self.authoring.note_rehearsal(about.draft, about.rehearsed, event)
+            self._note_rehearsal(about.draft, about.rehearsed, event)
         elif isinstance(event, Started):
             about.has_started = True
             self._ran[event.turn] = about.draft
@@ -241,6 +241,13 @@ class ProgramRequests:
         elif isinstance(event, Finished):
             return self._send_mended(event, about)
         return False
+
+    def _note_rehearsal(self, draft: Draft, program: ProgramRehearsed, path: Rehearsed) -> None:
+        """An edit that rehearsal refuses leaves the version before it, and what is known of that."""
+        if path.ok:
+            self.authoring.keep(draft)
+        if path.ok or not self.authoring.replaces_kept(draft):
+            self.authoring.note_rehearsal(draft, program, path)
 
     def ending(self, turn: int, reply: str) -> str:
         """Return the reply at the end of a program's turn: what was promised and cannot be is said again."""
@@ -290,8 +297,9 @@ class ProgramRequests:
                 self._requests.conclude(turn, "refused", reply)
                 return
             self._show(turn, about.draft)
-        self.authoring.keep(about.draft)
         draft = about.draft
+        if not self.authoring.replaces_kept(draft):
+            self.authoring.keep(draft)
         payload = {
             "code": draft.program.source,
             "name": draft.program.name,

@@ -9,7 +9,7 @@ import { startLesson } from "./lesson.js";
 import { asksBeforeTaps, startMap } from "./map.js";
 import { startPlaces } from "./places.js";
 import { editPlan, startPlan } from "./plan.js";
-import { startPrograms } from "./programs.js";
+import { editProgram, startPrograms } from "./programs.js";
 import { startSayBox } from "./say_box.js";
 import { startSpeech } from "./speech.js";
 import { startSteering } from "./steering.js";
@@ -67,9 +67,10 @@ startStick();
 startSpeech();
 startLanguage();
 startMenus();
-onEditPlan(() => {
-  showTab("plan");
-  editPlan();
+onEditPlan((turn) => {
+  const isProgram = editProgram(turn);
+  showTab(isProgram ? "programs" : "plan");
+  if (!isProgram) editPlan();
 });
 for (const button of document.querySelectorAll(".tabs button")) {
   button.addEventListener("click", () => showTab(button.dataset.tab));

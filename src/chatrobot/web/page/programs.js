@@ -11,6 +11,8 @@ const source = byId("program-source");
 const text = byId("program-text");
 const log = byId("program-log");
 
+/** What a person typed and did not save, or what was refused, by the program's name. */
+const drafts = new Map();
 let all = [];
 let shown = null;
 let runs = "";
@@ -44,7 +46,7 @@ function show(program) {
     }
     return item;
   }));
-  edit(false);
+  edit(drafts.has(shown.name) && drafts.get(shown.name) !== shown.source);
   if (!state.isReplaying) byId("program").scrollIntoView({ block: "nearest" });
 }
 
@@ -52,9 +54,28 @@ function edit(isOn) {
   text.hidden = byId("program-save").hidden = byId("program-drop").hidden = !isOn;
   source.hidden = byId("program-edit").hidden = byId("program-run").hidden = isOn;
   if (!isOn) return;
-  text.value = shown.source;
-  text.rows = Math.min(20, shown.source.split("\n").length + 1);
+  text.value = drafts.get(shown.name) ?? shown.source;
+  text.rows = Math.min(20, text.value.split("\n").length + 1);
+}
+
+/** Edit the program that is shown, where it is the one of that turn; false where it is not. */
+export function editProgram(turn = runningTurn) {
+  if (!shown || turn !== runningTurn) return false;
+  edit(true);
   text.focus();
+  return true;
+}
+
+function save() {
+  drafts.set(shown.name, text.value);
+  if (send({ do: "edit_program", name: shown.name, source: text.value })) edit(false);
+}
+
+/** What is kept is shown again: the last version may have been refused. */
+function drop() {
+  drafts.delete(shown.name);
+  edit(false);
+  send({ do: "program", name: shown.name });
 }
 
 function logLine(line, level = "") {
@@ -83,6 +104,11 @@ const heard = {
     const at = event.line ? source.children[event.line - 1] : null;
     if (at) at.classList.add("marked");
   },
+  rehearsed(event) {
+    if (event.turn !== runningTurn || !event.ok || shown.source !== drafts.get(shown.name)) return;
+    drafts.delete(shown.name);
+    setText(byId("program-about"), `${byId("program-about").textContent} · ${t("program_edit_kept")}`);
+  },
   program_log(event) {
     if (event.turn === runningTurn || !runningTurn) logLine(`${event.t_s.toFixed(1)} s  ${event.text}`, event.level);
   },
@@ -90,7 +116,9 @@ const heard = {
     if (event.turn === runningTurn) logLine(t("program_started", { name: runs }), "rehearsed");
   },
   result(event) {
-    if (event.turn === runningTurn) logLine(event.reply, event.outcome === "failed" ? "error" : "");
+    if (event.turn !== runningTurn) return;
+    logLine(event.reply, event.outcome === "failed" ? "error" : "");
+    if (event.outcome === "refused" && shown.name === runs && drafts.has(runs)) edit(true);
   },
 };
 
@@ -107,10 +135,9 @@ export function startPrograms() {
   on("event", ({ event, text: words }) => heard[event.event] && heard[event.event](event, words));
   on("steering", drawList);
   byId("program-run").addEventListener("click", () => send({ do: "run_program", name: shown.name }));
-  byId("program-edit").addEventListener("click", () => edit(true));
-  byId("program-drop").addEventListener("click", () => edit(false));
-  byId("program-save").addEventListener("click", () => {
-    if (send({ do: "edit_program", name: shown.name, source: text.value })) edit(false);
-  });
+  byId("program-edit").addEventListener("click", () => editProgram());
+  byId("program-drop").addEventListener("click", drop);
+  byId("program-save").addEventListener("click", save);
+  text.addEventListener("input", () => drafts.set(shown.name, text.value));
   onLanguage(drawList);
 }
