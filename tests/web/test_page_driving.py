@@ -8,11 +8,11 @@ import math
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from chatrobot.core.events import Paused, Telemetry
+from chatrobot.core.events import Paused, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.sim.shapes import Circle
-from tests.web.browser import DESKTOP, browser, open_page, page
+from tests.web.browser import DESKTOP, PHONE, browser, open_page, page, rehearse
 from tests.web.rig import WebRig, wait_until
 
 __all__ = ["browser", "page"]
@@ -175,6 +175,25 @@ def test_a_tap_on_the_floor_asks_for_the_way_there(page: Page, rig: WebRig) -> N
     assert do == "say_edited_plan"
     assert plan_text.startswith("go to ")
     assert "facing" not in plan_text
+
+
+def test_on_a_phone_the_question_about_a_tap_is_seen_whatever_panel_was(
+    browser: Browser, rig: WebRig
+) -> None:
+    page = open_page(browser, rig.origin, PHONE)
+    page.locator(".tabs [data-tab=drive]").click()
+    page.locator("#floor").click(position={"x": 200, "y": 150})
+    wait_until(lambda: bool(rig.session.log))
+    rehearse(rig)
+    do_it = page.get_by_role("log", name="What was said").get_by_role("button", name="Do it")
+    expect(do_it).to_be_in_viewport()
+    page.locator(".tabs [data-tab=plan]").click()
+    expect(page.locator(".tabs .asks")).to_have_text("Chat")
+    page.locator("#plan-run").click()
+    rig.session.wait_for("approve", 1, True)
+    rig.tell(Started(1))
+    expect(page.locator(".tabs .asks")).to_have_count(0)
+    page.context.close()
 
 
 def _metres_across(page: Page, rig: WebRig) -> float:

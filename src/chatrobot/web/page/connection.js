@@ -29,7 +29,7 @@ export const state = {
   isReplaying: false,
 };
 
-/** Have `listener` hear messages of that kind; kinds of our own are `open`, `closed` and `denied`. */
+/** Have `listener` hear messages of that kind; kinds of our own are `open`, `closed`, `denied`, `still` and `asking`. */
 export function on(kind, listener) {
   if (!listeners.has(kind)) listeners.set(kind, []);
   listeners.get(kind).push(listener);

@@ -76,6 +76,7 @@ for (const button of document.querySelectorAll(".tabs button")) {
   button.addEventListener("click", () => showTab(button.dataset.tab));
 }
 showTab("chat");
+on("asking", () => showTab("chat")); // what was pointed at is asked about there
 // What was told before we came, once everybody listens.
 on("open", () => replay(state.hello.history));
 on("history", (message) => replay(message.history));

@@ -1,6 +1,6 @@
 /** The map: what is known, kept up to date and drawn when something changed. */
 
-import { on, send, state } from "./connection.js";
+import { on, send, state, tell } from "./connection.js";
 import { byId, isPressed, setPressed, setText } from "./dom.js";
 import { Drawing, readColours } from "./map_drawing.js";
 import { dragged, startObstacles } from "./map_obstacles.js";
@@ -115,7 +115,9 @@ heard.finished = heard.result;
 function go() {
   if (!known.target) return;
   const { x, y, yaw } = known.target;
-  if (!state.steers || !send({ do: "go", x_m: x, y_m: y, yaw_rad: yaw, ask: asksBeforeTaps() })) known.target = null;
+  const ask = asksBeforeTaps();
+  if (!state.steers || !send({ do: "go", x_m: x, y_m: y, yaw_rad: yaw, ask })) known.target = null;
+  else if (ask) tell({ is: "asking" });
   redraw();
 }
 

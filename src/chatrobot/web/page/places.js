@@ -1,6 +1,6 @@
 /** Places: what they are called in the page's language, and the menu that goes to them without a pointer. */
 
-import { on, send, state } from "./connection.js";
+import { on, send, state, tell } from "./connection.js";
 import { byId, make, makeButton } from "./dom.js";
 import { language, onLanguage } from "./words.js";
 
@@ -25,7 +25,7 @@ export function startPlaces(asks) {
     byId("places").replaceChildren(...places.map((place) => {
       const button = makeButton(placeName(place), "small quiet", () => {
         byId("places-menu").open = false;
-        send({ do: "go", x_m: place.x_m, y_m: place.y_m, yaw_rad: null, ask: asks() });
+        if (send({ do: "go", x_m: place.x_m, y_m: place.y_m, yaw_rad: null, ask: asks() }) && asks()) tell({ is: "asking" });
       });
       button.disabled = !state.steers;
       return make("li", "", button);

@@ -1,6 +1,6 @@
 /** Programs that are kept: their source with what is risky in it, their rehearsal, their log. */
 
-import { on, send, state } from "./connection.js";
+import { on, send, state, tell } from "./connection.js";
 import { byId, make, makeButton, setText } from "./dom.js";
 import { onLanguage, t } from "./words.js";
 
@@ -68,7 +68,9 @@ export function editProgram(turn = runningTurn) {
 
 function save() {
   drafts.set(shown.name, text.value);
-  if (send({ do: "edit_program", name: shown.name, source: text.value })) edit(false);
+  if (!send({ do: "edit_program", name: shown.name, source: text.value })) return;
+  edit(false);
+  tell({ is: "asking" });
 }
 
 /** What is kept is shown again: the last version may have been refused. */
