@@ -188,6 +188,23 @@ class WebRig:
         """Have something happen."""
         self.room.hear(event)
 
+    @contextlib.contextmanager
+    def telling(self, event: Event) -> Iterator[None]:
+        """Have it happen ten times a second, as telemetry does."""
+        ends = threading.Event()
+
+        def tell() -> None:
+            while not ends.wait(0.1):
+                self.tell(event)
+
+        thread = threading.Thread(target=tell)
+        thread.start()
+        try:
+            yield
+        finally:
+            ends.set()
+            thread.join()
+
     @property
     def origin(self) -> str:
         return f"http://127.0.0.1:{self.access.port}"

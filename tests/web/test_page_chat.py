@@ -191,11 +191,12 @@ def test_a_plan_is_shown_rounded_and_edited_as_it_is(page: Page, rig: WebRig) ->
 
 
 def test_gauges_say_how_fast_how_near_and_what_is_limited(page: Page, rig: WebRig) -> None:
-    rig.tell(Telemetry(0, ORIGIN, Twist(0.25, 0.0, 0.5), 1.0, battery_percent=63.0, nearest_obstacle_m=0.42))
+    moving = Telemetry(0, ORIGIN, Twist(0.25, 0.0, 0.5), 1.0, battery_percent=63.0, nearest_obstacle_m=0.42)
     now = page.get_by_role("region", name="Now")
-    expect(now.get_by_role("meter", name="Speed", exact=True)).to_have_attribute("aria-valuenow", "0.25")
-    for text in ("0.25 of 1.00 m/s", "29 of 115 °/s", "0.42 m", "63 %"):
-        expect(now).to_contain_text(text)
+    with rig.telling(moving):
+        expect(now.get_by_role("meter", name="Speed", exact=True)).to_have_attribute("aria-valuenow", "0.25")
+        for text in ("0.25 of 1.00 m/s", "29 of 115 °/s", "0.42 m", "63 %"):
+            expect(now).to_contain_text(text)
     rig.tell(Limited(1, "obstacle", Twist(0.5, 0.0, 0.0), Twist(0.2, 0.0, 0.0)))
     expect(page.locator("#limited")).to_contain_text("0.20")
 

@@ -144,12 +144,12 @@ def test_keys_drive_from_the_map_and_not_from_menus_buttons_lists_or_after_send(
 
 def test_a_key_that_is_held_and_moves_nothing_is_told_to_be_let_go(page: Page, rig: WebRig) -> None:
     page.evaluate("document.activeElement.blur()")
-    rig.tell(Telemetry(0, ORIGIN, Twist(), 0.0))
-    page.keyboard.down("s")
-    expect(page.locator("#limited")).to_have_text(
-        "The robot does not move. After a stop let go first, then hold again."
-    )
-    page.keyboard.up("s")
+    with rig.telling(Telemetry(0, ORIGIN, Twist(), 0.0)):
+        page.keyboard.down("s")
+        expect(page.locator("#limited")).to_have_text(
+            "The robot does not move. After a stop let go first, then hold again."
+        )
+        page.keyboard.up("s")
     expect(page.locator("#limited")).to_be_empty()
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from chatrobot.cli.web import listen
-from chatrobot.core.events import Result, Started
-from chatrobot.core.geometry import ORIGIN
+from chatrobot.core.events import Result, Started, Telemetry
+from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.web.access import Access
 from chatrobot.web.server import WebServer
 from chatrobot.web.words import told
@@ -77,6 +79,17 @@ def test_a_lost_connection_is_said_and_comes_back(page: Page, rig: WebRig) -> No
     expect(page.locator("#steering-state")).to_have_text("You steer")
     page.keyboard.press("Escape")
     expect(page.locator("#stop-said")).to_have_text("The robot was told to stop.")
+
+
+def test_a_server_that_falls_silent_is_said_within_a_second(page: Page, rig: WebRig) -> None:
+    with rig.telling(Telemetry(0, ORIGIN, Twist(0.3, 0.0, 0.0), 0.0)):
+        expect(page.locator("#robot-state")).to_have_text("Moving")
+    silent_s = time.monotonic()
+    expect(page.locator("#robot-state")).to_have_text("No answer")
+    assert time.monotonic() - silent_s < 2.5  # before the connection is given up
+    expect(page.locator("#gauge-speed b")).to_have_text("–")
+    with rig.telling(Telemetry(0, ORIGIN, Twist(), 0.0)):
+        expect(page.locator("#robot-state")).to_have_text("Standing")
 
 
 # --- every screen, every language, every person ---

@@ -5,7 +5,9 @@ import { useFirstLine, useStopLine } from "./stop.js";
 const OPEN = 1;
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 4000;
+const STALE_MS = 800;
 const SILENCE_MS = 3000;
+const LOOK_MS = 200;
 const GUESSED = 429;
 const GUESSED_WAIT_MS = 61000;
 const REFUSALS = [401, 403, 404, 421, GUESSED];
@@ -23,13 +25,14 @@ let stopPort = 0;
 /** What the page knows of itself: from `hello`, kept up to date. */
 export const state = {
   isOpen: false,
+  isSilent: false,
   hello: null,
   steers: false,
   may: new Set(),
   isReplaying: false,
 };
 
-/** Have `listener` hear messages of that kind; kinds of our own are `open`, `closed`, `denied`, `still` and `asking`. */
+/** Have `listener` hear messages of that kind; kinds of our own are `open`, `closed`, `denied`, `silence`, `still` and `asking`. */
 export function on(kind, listener) {
   if (!listeners.has(kind)) listeners.set(kind, []);
   listeners.get(kind).push(listener);
@@ -96,6 +99,7 @@ function open() {
 
 function hear(message) {
   heardMs = performance.now();
+  noteSilence(false);
   if (message.is === "hello") greet(message);
   if (message.is === "steering") follow(message);
   if (message.is === "event" && message.event.event === "telemetry") hadTelemetry = true;
@@ -126,8 +130,16 @@ function follow(steering) {
   if (steering.may) state.may = new Set(steering.may);
 }
 
+/** What was told last is not known to be so any more, though the connection is still there. */
+function noteSilence(isSilent) {
+  if (state.isSilent === isSilent) return;
+  state.isSilent = isSilent;
+  tell({ is: "silence" });
+}
+
 function lose() {
   const was = state.isOpen;
+  noteSilence(false);
   state.isOpen = state.steers = false;
   useFirstLine(null);
   useStopLine("");
@@ -156,12 +168,15 @@ async function askRole(answer) {
 
 /** Close a connection on which nothing comes any more: a network that is gone closes none by itself. */
 setInterval(() => {
-  if (!state.isOpen || !hadTelemetry || performance.now() - heardMs < SILENCE_MS) return;
+  if (!state.isOpen || !hadTelemetry) return;
+  const silentMs = performance.now() - heardMs;
+  noteSilence(silentMs > STALE_MS);
+  if (silentMs < SILENCE_MS) return;
   const silent = socket;
   socket = null;
   silent.close();
   lose();
-}, 500);
+}, LOOK_MS);
 // Another link pasted into this tab changes the fragment alone, which loads nothing by itself.
 addEventListener("hashchange", () => location.hash.length > 1 && location.reload());
 addEventListener("online", () => {

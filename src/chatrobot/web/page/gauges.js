@@ -61,6 +61,7 @@ function drawState() {
   const chip = byId("robot-state");
   let key = "state_standing";
   if (!state.isOpen) key = "state_unknown";
+  else if (state.isSilent) key = "state_silent";
   else if (isLatched) key = "state_emergency";
   else if (isMoving()) key = "state_moving";
   else if (pausedTurn !== null) key = "state_paused";
@@ -100,11 +101,13 @@ export function startGauges() {
     draw();
     drawState();
   });
-  on("closed", () => {
-    telemetry = null; // what was measured last is not so any more
-    draw();
-    drawState();
-  });
+  for (const end of ["closed", "silence"]) {
+    on(end, () => {
+      telemetry = null; // what was measured last is not so any more
+      draw();
+      drawState();
+    });
+  }
   on("emergency", (message) => {
     isLatched = message.set;
     drawState();

@@ -60,7 +60,7 @@ function hearSteering(message) {
 }
 
 function hearStop(message) {
-  const said = { asked: "stop_asked", stopped: "stop_heard", unheard: "stop_unheard", gone: "stop_gone" }[message.is];
+  const said = { asked: state.isSilent ? "stop_unanswered" : "stop_asked", stopped: "stop_heard", unheard: "stop_unheard", gone: "stop_gone" }[message.is];
   if (said) {
     restButton(byId("release"));
     clearTimeout(stopTimer);
@@ -104,6 +104,7 @@ export function startSteering() {
     drawConnection();
     drawSteering();
   });
+  on("silence", () => document.body.classList.toggle("silent", state.isSilent));
   on("denied", (message) => {
     lost = message.status === 429 ? "denied_wait" : "denied";
     drawConnection();
