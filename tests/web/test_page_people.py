@@ -197,6 +197,9 @@ def test_a_server_begun_anew_has_its_line_for_stop_open_from_a_page_that_stayed(
     first = WebRig(Access("127.0.0.1"), [""])
     first.server.start(listen("127.0.0.1", 0), listen("127.0.0.1", 0))
     page = open_page(browser, first.origin)
+    box = page.get_by_label("Say something to the robot")
+    say(page, first, "forward 1 m")
+    box.fill("half a sen")
     first.close()
     expect(page.locator("#connection-banner")).to_be_visible()
     expect(page.locator("#gauge-speed b")).to_have_text("–")
@@ -205,6 +208,10 @@ def test_a_server_begun_anew_has_its_line_for_stop_open_from_a_page_that_stayed(
         with page.expect_navigation():
             second.server.start(listen("127.0.0.1", first.access.port), listen("127.0.0.1", 0))
         expect(page.locator("#steering-state")).to_have_text("You steer")
+        expect(page.get_by_role("log", name="What was said")).to_contain_text("The server was started anew")
+        expect(box).to_have_value("half a sen")
+        box.press("ArrowUp")
+        expect(box).to_have_value("forward 1 m")
         wait_until(lambda: bool(page.evaluate("import('/stop.js').then((line) => line.isStopLineOpen())")))
     finally:
         page.context.close()

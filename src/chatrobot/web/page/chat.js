@@ -1,8 +1,8 @@
 /** The chat: one entry a turn, which grows as the turn does; questions have buttons. */
 
 import { choicesOf } from "./choices.js";
-import { on, send, state } from "./connection.js";
-import { byId, make, makeButton, setText } from "./dom.js";
+import { BEGUN_ANEW, on, send, state } from "./connection.js";
+import { byId, make, makeButton, setText, takeFromTab } from "./dom.js";
 import { showHistory } from "./say_box.js";
 import { speak } from "./speech.js";
 import { language, t } from "./words.js";
@@ -207,7 +207,11 @@ function keepEndInSight() {
 
 /** Begin: hear what there is to show. */
 export function startChat() {
-  on("open", forgetAll);
+  const isAnew = Boolean(takeFromTab(BEGUN_ANEW));
+  on("open", () => {
+    forgetAll();
+    if (isAnew) noteLine(t("begun_anew"));
+  });
   on("history", forgetAll);
   on("said", (message) => change(() => {
     const entry = entryOf(message.turn);

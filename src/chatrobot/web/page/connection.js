@@ -1,5 +1,6 @@
 /** The connection to the server: opened, kept, opened again; messages out, messages in by their kind. */
 
+import { keepInTab } from "./dom.js";
 import { useFirstLine, useStopLine } from "./stop.js";
 
 const OPEN = 1;
@@ -11,6 +12,9 @@ const LOOK_MS = 200;
 const GUESSED = 429;
 const GUESSED_WAIT_MS = 61000;
 const REFUSALS = [401, 403, 404, 421, GUESSED];
+
+/** Kept in the tab where the page loads itself again for a server that was begun anew. */
+export const BEGUN_ANEW = "chatrobot-begun-anew";
 
 const listeners = new Map();
 let query = location.search;
@@ -115,6 +119,7 @@ function isOfAnotherServer(hello) {
 
 function greet(hello) {
   if (isOfAnotherServer(hello)) {
+    keepInTab(BEGUN_ANEW, "yes");
     location.reload();
     return;
   }

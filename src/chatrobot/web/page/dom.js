@@ -54,6 +54,26 @@ export function isTextField(element) {
   return isField(element) && !element.matches("input[type=range]");
 }
 
+/** Have this tab keep a text over a reload; a browser that keeps nothing forgets it. */
+export function keepInTab(key, text) {
+  try {
+    sessionStorage.setItem(key, text);
+  } catch {
+    // it is typed again
+  }
+}
+
+/** Return, once, what this tab has kept; "" for nothing. */
+export function takeFromTab(key) {
+  try {
+    const text = sessionStorage.getItem(key) ?? "";
+    sessionStorage.removeItem(key);
+    return text;
+  } catch {
+    return "";
+  }
+}
+
 /** Show `text` in a banner; an empty one hides it. */
 export function setBanner(element, text) {
   setText(element, text);

@@ -1,11 +1,12 @@
 /** The box in which a person says something, with what was said before under the arrow keys. */
 
 import { on, send, state } from "./connection.js";
-import { byId, makeButton } from "./dom.js";
+import { byId, keepInTab, makeButton, takeFromTab } from "./dom.js";
 import { placeName } from "./places.js";
 import { onLanguage, t } from "./words.js";
 
 const MOST_KEPT = 100;
+const KEPT = "chatrobot-said";
 
 const box = byId("say");
 const kept = [];
@@ -50,6 +51,14 @@ function step(by) {
   box.setSelectionRange(box.value.length, box.value.length);
 }
 
+/** What is half typed, and what was said before, outlive a reload. */
+function keepOverReload() {
+  const before = JSON.parse(takeFromTab(KEPT) || '{"draft": "", "kept": []}');
+  before.kept.forEach(keep);
+  fillBox(before.draft);
+  addEventListener("pagehide", () => keepInTab(KEPT, JSON.stringify({ draft: box.value, kept })));
+}
+
 function showExamples() {
   const place = state.hello && state.hello.world.places[0];
   const texts = [t("example_forward"), t("example_turn"), t("example_square")];
@@ -63,6 +72,7 @@ function showExamples() {
 }
 
 export function startSayBox() {
+  keepOverReload();
   byId("say-form").addEventListener("submit", (event) => {
     event.preventDefault();
     sendBox();
