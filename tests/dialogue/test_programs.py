@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
+import re
 from dataclasses import replace
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -22,6 +25,7 @@ from chatrobot.core.events import (
     TruePose,
 )
 from chatrobot.dialogue.options import Options
+from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.models.usage import totals
 from chatrobot.programs.library import KeptProgram
 
@@ -203,6 +207,15 @@ def test_what_a_model_uses_to_write_programs_counts_in_usage(house: House, tmp_p
 def test_a_program_that_needs_no_model_uses_none(house: House) -> None:
     house.do("Generate a ROS 2 Python program to drive forward 15 cm")
     assert not house.all(ModelCalled)
+
+
+@pytest.mark.parametrize("code", REPLY_LANGUAGES)
+def test_the_example_of_the_page_is_written_when_it_is_said_as_it_stands(house: House, code: str) -> None:
+    words = json.loads((files("chatrobot.web") / f"page/words.{code}.json").read_text(encoding="utf-8"))
+    example = re.search("[“„](.+)[”“]", words["programs_empty"])
+    assert example is not None
+    assert house.do(example[1]).outcome == "completed"
+    assert house.authoring.library.names()
 
 
 def test_the_same_program_is_kept_once(house: House) -> None:

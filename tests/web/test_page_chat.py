@@ -13,6 +13,7 @@ from chatrobot.core.events import (
     Limited,
     Notice,
     Ordered,
+    Paused,
     ProgramLog,
     ProgramWritten,
     Progress,
@@ -161,6 +162,15 @@ def test_what_was_said_before_comes_back_with_arrow_up(page: Page, rig: WebRig) 
     expect(box).to_have_value("turn left")
 
 
+def test_a_text_that_is_too_long_is_said_and_stays_in_the_box(page: Page, rig: WebRig) -> None:
+    box = page.get_by_label("Say something to the robot")
+    box.fill("forward " * 600)
+    box.press("Enter")
+    expect(page.locator("#notice-banner")).to_contain_text("That is too long: 4799 characters")
+    expect(box).to_have_value("forward " * 600)
+    assert not rig.session.log
+
+
 def test_a_page_that_comes_later_sees_what_was_said(page: Page, rig: WebRig, browser: Browser) -> None:
     say(page, rig, "forward 1 m")
     rig.tell(Result(1, "completed", "Done: drove 1.00 m."))
@@ -179,6 +189,18 @@ def test_the_running_step_is_marked(page: Page, rig: WebRig) -> None:
     rig.tell(Progress(1, 2, 3, 0.4, ORIGIN, Twist(0.1, 0.0, 0.0)))
     marked = page.locator("#plan-lines [aria-current=step]")
     expect(marked).to_have_text(["repeat 2", "  turn left 90 deg", "end"], use_inner_text=True)
+
+
+def test_a_paused_plan_is_told_as_that_and_a_pause_of_nothing_too(page: Page, rig: WebRig) -> None:
+    page.get_by_role("button", name="Pause").click()
+    expect(page.locator("#notice-banner")).to_have_text("Nothing moves that could be paused.")
+    say(page, rig, "drive half a metre")
+    rehearse(rig)
+    rig.tell(Started(1))
+    rig.tell(Paused(1, ORIGIN, "drive 0.2 m"))
+    expect(page.locator("#plan-about")).to_have_text("Paused.")
+    rig.tell(Started(1))
+    expect(page.locator("#plan-about")).to_have_text("Runs now.")
 
 
 def test_a_plan_is_shown_rounded_and_edited_as_it_is(page: Page, rig: WebRig) -> None:

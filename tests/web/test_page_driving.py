@@ -263,6 +263,8 @@ def test_the_map_can_be_used_with_keys_and_by_the_list_of_places(page: Page, rig
     page.get_by_role("button", name="sofa").click()
     wait_until(lambda: len(rig.session.log) == 2)
     assert rig.session.log[1][1].startswith("go to -1.1 0")
+    assert rig.session.log[1][1].endswith('named "sofa"')
+    expect(page.locator("#turns .you").last).to_have_text("go to the sofa")
 
 
 def test_an_obstacle_is_put_dragged_and_taken_away_by_whoever_steers(page: Page, rig: WebRig) -> None:
@@ -291,6 +293,12 @@ def test_an_obstacle_is_put_dragged_and_taken_away_by_whoever_steers(page: Page,
     floor.click(position={"x": 300, "y": 300})
     wait_until(lambda: len(rig.session.log) == 3)
     assert rig.session.log[2] == ("obstacle", {"remove": "Obstacle 1"})
+    button.click()
+    page.get_by_role("button", name="Set heading").click()
+    expect(button).to_have_attribute("aria-pressed", "false")
+    button.click()
+    page.keyboard.press("Escape")
+    expect(button).to_have_attribute("aria-pressed", "false")
 
 
 def test_who_only_watches_puts_no_obstacle_there(rig: WebRig) -> None:

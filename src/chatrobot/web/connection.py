@@ -14,6 +14,7 @@ from chatrobot.core.errors import LinkError
 from chatrobot.core.geometry import Twist
 from chatrobot.language.interpretation import LanguageCode, language_of_tags
 from chatrobot.link.envelope import OBSTACLE_RADIUS_M
+from chatrobot.plan.steps import Go
 from chatrobot.reflex import is_release, leads_with_stop
 from chatrobot.web.access import EMERGENCY_BUTTON, STOP_BUTTON, Pass
 from chatrobot.web.limits import ABORT, UNREAD, Rate
@@ -217,6 +218,13 @@ def _steer(room: Room, page: Page, said: dict[str, Any]) -> None:
     room.steering.stick(page, Twist(said["vx_mps"], said["vy_mps"], said["wz_radps"]))
 
 
+def _go(room: Room, page: Page, said: dict[str, Any]) -> None:
+    """`text` is how the page puts it where it goes to a place by its name."""
+    yaw_rad = said.get("yaw_rad")
+    where = Go(round(said["x_m"], 3), round(said["y_m"], 3), yaw_rad, place=said.get("place", ""))
+    room.go(page, where, said.get("text", ""), asks=said.get("ask", True))
+
+
 def _obstacle(room: Room, page: Page, said: dict[str, Any]) -> None:
     """Without a place it is taken away."""
     is_put = "x_m" in said and "y_m" in said
@@ -241,9 +249,7 @@ ACTIONS: Mapping[str, Callable[[Room, Page, dict[str, Any]], None]] = {
     "say_plan": lambda room, page, said: room.say_plan(page, said["plan_text"]),
     "approve": lambda room, page, said: room.answer(page, said["turn"], said["yes"]),
     "edit": lambda room, page, said: room.say_edited(page, said["plan_text"], said["turn"]),
-    "go": lambda room, page, said: room.go(
-        page, said["x_m"], said["y_m"], said.get("yaw_rad"), asks=said.get("ask", True)
-    ),
+    "go": _go,
     "obstacle": _obstacle,
     "pause": lambda room, _, __: room.session.pause("pause()"),
     "resume": lambda room, page, _: room.resume(page),

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from chatrobot.language.data_files import REPLY_LANGUAGES
+from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 
 MOST_BYTES = 64 * 1024
@@ -47,6 +48,10 @@ def _is_count(value: object) -> bool:
     return type(value) is int and value >= 0
 
 
+def _is_name_of_place(value: object) -> bool:
+    return isinstance(value, str) and value.isprintable() and len(value) <= MAX_PLACE_CHARS
+
+
 def _or_none(check: _Check) -> _Check:
     return lambda value: value is None or check(value)
 
@@ -59,7 +64,14 @@ FIELDS: Fields = {
     "say_plan": {"plan_text": _PLAN},
     "approve": {"turn": _is_count, "yes": _is_flag},
     "edit": {"plan_text": _PLAN, "turn": _is_count},
-    "go": {"x_m": _POINT, "y_m": _POINT, "yaw_rad?": _or_none(_number(100.0)), "ask?": _is_flag},
+    "go": {
+        "x_m": _POINT,
+        "y_m": _POINT,
+        "yaw_rad?": _or_none(_number(100.0)),
+        "ask?": _is_flag,
+        "place?": _is_name_of_place,
+        "text?": _TEXT,
+    },
     "obstacle": {"name": _NAME, "x_m?": _POINT, "y_m?": _POINT, "radius_m?": _number(5.0)},
     "pause": {},
     "resume": {},

@@ -293,11 +293,11 @@ class Room:
         """Take in what a person made of the plan of that turn: it is asked about in its place."""
         self._say_as(face, plan_text, lambda: self.plans.edit(self.session, turn, plan_text))
 
-    def go(self, face: Face, x_m: float, y_m: float, yaw_rad: float | None, *, asks: bool) -> None:
+    def go(self, face: Face, where: Go, text: str, *, asks: bool) -> None:
         """Have the robot go to a point of the floor; rehearsed first, and asked about unless a person waived that."""
-        plan_text = format_plan(Plan((Go(round(x_m, 3), round(y_m, 3), yaw_rad),)))
+        plan_text = format_plan(Plan((where,)))
         say = self.session.say_edited_plan if asks else self.session.say_plan
-        self._say_as(face, plan_text, lambda: say(plan_text))
+        self._say_as(face, text or plan_text, lambda: say(plan_text))
 
     def change_obstacle(self, face: Face, name: str, circle: list[float] | None) -> None:
         """Put an obstacle there (x, y and radius), move it, or take it away. Motion's notice says what came of it."""

@@ -213,6 +213,9 @@ export function startChat() {
     if (isAnew) noteLine(t("begun_anew"));
   });
   on("history", forgetAll);
+  on("closed", () => {
+    for (const entry of entries.values()) entry.bar.hidden = true; // what becomes of it is not known here
+  });
   on("said", (message) => change(() => {
     const entry = entryOf(message.turn);
     if (asking) unask(asking);

@@ -1,7 +1,7 @@
 /** The lesson above the chat: the task that is to be done, what the last turn achieved, and the pupil's commands. */
 
 import { on, send } from "./connection.js";
-import { byId, make, makeButton, setText } from "./dom.js";
+import { byId, make, makeButton, restButton, setText } from "./dom.js";
 import { onLanguage, t } from "./words.js";
 
 const COMMANDS = { "lesson_hint": "/hint", "lesson_again": "/again", "lesson_skip": "/skip" };
@@ -24,7 +24,9 @@ function showVerdict(message) {
 }
 
 function showButtons() {
-  const press = ([word, text]) => makeButton(t(word), "small", () => send({ do: "say", text }));
+  const press = ([word, text]) => makeButton(t(word), "small", (event) => {
+    if (send({ do: "say", text })) restButton(event.currentTarget); // a double click leaves out one task
+  });
   byId("lesson-buttons").replaceChildren(...Object.entries(COMMANDS).map(press));
 }
 

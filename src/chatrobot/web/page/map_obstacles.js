@@ -83,9 +83,14 @@ export function startObstacles(redraw) {
     button.hidden = !mayPut();
     if (button.hidden) setPressed(button, false);
   };
-  button.addEventListener("click", () => setPressed(button, !isPressed(button)));
-  on("open", show);
-  on("steering", show);
+  const heading = byId("heading");
+  button.addEventListener("click", () => {
+    setPressed(button, !isPressed(button));
+    setPressed(heading, false);
+  });
+  heading.addEventListener("click", () => setPressed(button, false));
+  addEventListener("keydown", (event) => event.key === "Escape" && setPressed(button, false));
+  for (const kind of ["open", "steering", "closed"]) on(kind, show);
   on("event", ({ event }) => {
     if (event.event !== "obstacle_changed") return;
     const world = state.hello.world;

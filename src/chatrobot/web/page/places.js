@@ -2,7 +2,7 @@
 
 import { on, send, state, tell } from "./connection.js";
 import { byId, make, makeButton } from "./dom.js";
-import { language, onLanguage } from "./words.js";
+import { language, onLanguage, t } from "./words.js";
 
 /** Return what a place is called in the page's language. */
 export function placeName(place) {
@@ -25,14 +25,15 @@ export function startPlaces(asks) {
     byId("places").replaceChildren(...places.map((place) => {
       const button = makeButton(placeName(place), "small quiet", () => {
         byId("places-menu").open = false;
-        if (send({ do: "go", x_m: place.x_m, y_m: place.y_m, yaw_rad: null, ask: asks() }) && asks()) tell({ is: "asking" });
+        const text = t("example_place", { place: button.textContent });
+        const point = { x_m: place.x_m, y_m: place.y_m, yaw_rad: null, place: button.textContent, text };
+        if (send({ do: "go", ...point, ask: asks() }) && asks()) tell({ is: "asking" });
       });
       button.disabled = !state.steers;
       return make("li", "", button);
     }));
   };
-  on("open", draw);
-  on("steering", draw);
+  for (const kind of ["open", "steering", "closed"]) on(kind, draw);
   on("places", (message) => {
     state.hello.world.places = message.places;
     draw();

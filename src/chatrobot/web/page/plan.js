@@ -9,7 +9,7 @@ const text = byId("plan-text");
 const about = byId("plan-about");
 
 const plan = {
-  turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false, isSent: false,
+  turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false, isSent: false, isPaused: false,
 };
 
 const NUMBER_OR_QUOTED = /"(?:[^"\\]|\\.)*"|-?\d+\.\d{4,}(?:e[-+]?\d+)?/g;
@@ -44,6 +44,7 @@ function draw() {
     if (isRunning) item.setAttribute("aria-current", "step");
     return item;
   }));
+  lines.classList.toggle("paused", plan.isPaused);
   const running = lines.querySelector(".running");
   if (running) lines.scrollTop = running.offsetTop - lines.clientHeight / 2;
   describe();
@@ -52,7 +53,7 @@ function draw() {
 function describe() {
   let key = "plan_none";
   if (plan.isProgram) key = "plan_program";
-  if (plan.lines.length) key = plan.waits ? "plan_waits" : plan.step ? "plan_runs" : "plan_last";
+  if (plan.lines.length) key = plan.waits ? "plan_waits" : plan.isPaused ? "paused" : plan.step ? "plan_runs" : "plan_last";
   if (!state.isOpen && (plan.waits || plan.step)) key = "plan_unknown";
   if (plan.isEdited) key = "plan_help";
   setText(about, t(key));
@@ -97,7 +98,7 @@ function drop() {
 }
 
 function show(turn, planLines) {
-  Object.assign(plan, { turn, lines: planLines, step: 0, outcome: "", waits: false, isProgram: false });
+  Object.assign(plan, { turn, lines: planLines, step: 0, outcome: "", waits: false, isProgram: false, isPaused: false });
 }
 
 const heard = {
@@ -132,7 +133,10 @@ const heard = {
     if (event.turn === plan.turn) plan.waits = event.needs_approval;
   },
   started(event) {
-    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 1 });
+    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 1, isPaused: false });
+  },
+  paused(event) {
+    if (event.turn === plan.turn) plan.isPaused = true;
   },
   progress(event) {
     if (event.turn !== plan.turn || event.step === plan.step) return false;
@@ -140,7 +144,7 @@ const heard = {
     return true;
   },
   result(event) {
-    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 0, outcome: event.outcome });
+    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 0, outcome: event.outcome, isPaused: false });
   },
 };
 

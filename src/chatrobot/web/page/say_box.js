@@ -3,9 +3,11 @@
 import { on, send, state } from "./connection.js";
 import { byId, keepInTab, makeButton, takeFromTab } from "./dom.js";
 import { placeName } from "./places.js";
+import { notice } from "./steering.js";
 import { onLanguage, t } from "./words.js";
 
 const MOST_KEPT = 100;
+const MOST_CHARS = 4000; // of one message, by the protocol
 const KEPT = "chatrobot-said";
 
 const box = byId("say");
@@ -22,7 +24,8 @@ export function fillBox(text) {
 /** Send what is in the box. It stays there where the connection is gone, and where another page steers: a stop counts. */
 export function sendBox() {
   const text = box.value.trim();
-  if (!text || !send({ do: "say", text })) return;
+  if (text.length > MOST_CHARS) notice(t("say_too_long", { count: text.length, most: MOST_CHARS }));
+  if (!text || text.length > MOST_CHARS || !send({ do: "say", text })) return;
   if (!state.steers) {
     box.select();
     return;

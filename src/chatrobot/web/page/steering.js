@@ -2,6 +2,7 @@
 
 import { on, send, state } from "./connection.js";
 import { byId, restButton, setBanner, setText } from "./dom.js";
+import { isMoving } from "./gauges.js";
 import { isStopLineOpen, onStop } from "./stop.js";
 import { onLanguage, t } from "./words.js";
 
@@ -116,9 +117,14 @@ export function startSteering() {
   onStop(hearStop);
   byId("take").addEventListener("click", () => send({ do: "take" }));
   byId("give").addEventListener("click", () => send({ do: "give" }));
-  byId("pause").addEventListener("click", () => send({ do: "pause" }));
+  byId("pause").addEventListener("click", () => {
+    if (send({ do: "pause" }) && !isMoving()) notice(t("pause_nothing"));
+  });
   byId("resume").addEventListener("click", () => send({ do: "resume" }));
-  byId("release").addEventListener("click", () => send({ do: "release" }));
+  byId("release").addEventListener("click", (event) => {
+    send({ do: "release" });
+    if (event.detail === 0) byId("say").focus(); // from the keyboard: its button goes away
+  });
   onLanguage(() => {
     drawTitle();
     drawSteering();
