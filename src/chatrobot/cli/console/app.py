@@ -60,9 +60,7 @@ def run_console(
     page = listeners.page = PageBeside(controller, is_simulated=setup.on in SIMULATED) if has_page else None
     try:
         begin = greeting(controller, setup.on) if lesson is None else lesson.begin(controller)
-        return _converse(
-            controller, setup, typed_ahead, begin, page.start if page is not None else lambda: None
-        )
+        return _converse(controller, setup, typed_ahead, begin, page.start if page else lambda: None)
     finally:
         if page is not None:
             page.close()
