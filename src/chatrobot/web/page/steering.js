@@ -58,6 +58,7 @@ function hearSteering(message) {
   const isTaken = before && by && before !== by;
   if (isTaken && before === state.hello.you) notice(t("taken_from_you", { name }));
   else if (isTaken && did) notice(t("taken_by_you"));
+  else if (before !== by) notice(""); // what was refused may be asked for now
 }
 
 function hearStop(message) {
