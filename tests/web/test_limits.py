@@ -39,6 +39,7 @@ def close_code(client: Client) -> int:
         '{"do":"approve","turn":1,"yes":1}', '{"do":"approve","turn":true,"yes":true}',
         '{"do":"steer","vx_mps":NaN,"vy_mps":0,"wz_radps":0}', '{"do":"steer","vx_mps":1e400,"vy_mps":0,"wz_radps":0}',
         '{"do":"steer","vx_mps":"1","vy_mps":0,"wz_radps":0}', '{"do":"go","x_m":1e9,"y_m":0}',
+        '{"do":"go","x_m":1,"y_m":0,"place":"a\\nstop"}',
         '{"do":"language","code":"fr"}', '{"do":"say","text":"' + "x" * 5000 + '"}',
     ],
 )  # fmt: skip
@@ -51,7 +52,7 @@ def test_every_message_with_its_fields_is_read() -> None:
     samples: dict[str, Any] = {
         "text": "hi", "plan_text": "drive 1 m", "turn": 1, "yes": True, "x_m": 1, "y_m": 2.5, "vx_mps": 0.1,
         "vy_mps": 0, "wz_radps": -1, "name": "square", "source": "pass", "code": "zh", "held": False, "ask": True,
-        "yaw_rad": None, "radius_m": 0.2,
+        "yaw_rad": None, "radius_m": 0.2, "place": "desk",
     }  # fmt: skip
     for do, fields in FIELDS.items():
         message = {"do": do, **{name.rstrip("?"): samples[name.rstrip("?")] for name in fields}}
