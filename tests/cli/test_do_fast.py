@@ -282,13 +282,41 @@ def test_a_folder_that_is_none_is_told_in_a_sentence(chatrobot: Command, tmp_pat
 
 
 def test_a_goodbye_ends_a_dialogue_and_a_session(chatrobot: Command) -> None:
-    done = chatrobot("do", "forward 0.2 m", "bye", "forward 1 m", "--fast", "--json", "--world", "empty")
-    assert [event["reply"] for event in done.named("result")] == ["Done: drove 0.20 m of 0.20 m.", "Goodbye."]
-    assert done.code == 0
-    lines = "forward 0.2 m\n再见\nforward 1 m\n"
-    done = chatrobot("--fast", "--json", "--world", "empty", stdin=lines)
-    assert [event["reply"] for event in done.named("result")] == ["Done: drove 0.20 m of 0.20 m.", "再见。"]
-    assert done.code == 0
+    done = chatrobot("do", "forward 0.2 m", "bye", "forward 1 m", "--json", *FAST)
+    replies = ["Done: drove 0.20 m of 0.20 m.", "Goodbye."]
+    assert [event["reply"] for event in done.named("result")] == replies
+    assert [event["reason"]["text"] for event in done.named("notice")] == ["forward 1 m"]
+    assert done.code == 4
+    done = chatrobot("--json", *FAST, stdin="forward 0.2 m\nbye\nforward 1 m\nforward 2 m\n")
+    replies += [f"“forward {way} m” came after the goodbye, so it was not done." for way in (1, 2)]
+    assert [event["reply"] for event in done.named("result")] == replies
+    assert [event["turn"] for event in done.named("interpreted")] == [1, 2]
+    assert done.code == 4
+    done = chatrobot("--json", *FAST, stdin="forward 0.2 m\n再见\n")
+    assert (done.named("result")[-1]["reply"], done.code) == ("再见。", 0)
+
+
+@pytest.mark.parametrize("line", ["quit", "Exit", "/quit", "/exit"])
+def test_a_line_that_quits_lets_those_before_it_be_done_and_those_after_it_be_named(
+    chatrobot: Command, line: str
+) -> None:
+    done = chatrobot("--json", *FAST, stdin=f"forward 0.2 m\n{line}\nforward 1 m\n{line}\nturn left\n")
+    outcomes = {event["turn"]: event["outcome"] for event in done.named("result")}
+    assert outcomes == {1: "completed", 2: "refused", 3: "refused"}
+    assert done.code == 4
+    assert chatrobot("--json", *FAST, stdin=f"forward 0.2 m\n{line}\n").code == 0
+
+
+def test_a_stop_after_a_line_that_quits_overtakes_it_all_the_same(chatrobot: Command) -> None:
+    done = chatrobot("--json", *FAST, stdin="wait 3000 seconds\nquit\nstop\n")
+    assert {event["turn"]: event["outcome"] for event in done.named("result")} == {1: "stopped", 2: "stopped"}
+
+
+def test_the_line_after_a_question_answers_it(chatrobot: Command) -> None:
+    done = chatrobot("--fast", "--json", stdin="forward 5 m\nyes\nwhere are you?\n")
+    assert [event["outcome"] for event in done.named("result")] == ["refused", "completed", "answered"]
+    done = chatrobot("--fast", "--json", stdin="forward 5 m\nno\n")
+    assert [event["outcome"] for event in done.named("result")] == ["refused", "answered"]
 
 
 def test_what_a_person_sees_of_a_plan_is_tidy_and_what_runs_is_exact(chatrobot: Command) -> None:

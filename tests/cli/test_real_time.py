@@ -46,7 +46,15 @@ def test_a_typed_stop_ends_what_moves_and_what_waits(chatrobot: Command) -> None
         assert outcomes == {1: "stopped", 2: "stopped", 3: "stopped"}
         robot.say("where are you?")
         assert robot.event("result")["outcome"] == "answered"
-        assert robot.end() == 0
+        robot.say("forward 10 m")
+        moving(robot)
+        robot.say("quit")
+        robot.say("back 1 m")
+        while len(outcomes) < 6:
+            result = robot.event("result")
+            outcomes[result["turn"]] = result["outcome"]
+        assert [outcomes[turn] for turn in (5, 6, 7)] == ["stopped", "stopped", "refused"]
+        assert robot.end() == 4
 
 
 def test_ten_texts_may_wait_and_the_next_is_refused(chatrobot: Command) -> None:

@@ -54,7 +54,7 @@ examples:
   chatrobot                                        talk to the simulated robot
   chatrobot do "forward 1 m, then turn left"       one instruction, in real time
   chatrobot do "draw a square" --fast              the same as fast as the machine goes
-  printf 'forward 1 m\\nturn left\\n' | chatrobot    a line is a turn; all of them are done
+  printf 'forward 1 m\\nturn left\\n' | chatrobot    a line is a turn; all are done, quit ends them
 
 exit codes: 0 completed or answered, 1 failed, 2 usage, 3 unclear, 4 refused, 5 stopped; of several turns that of
 the last one, with --keep-going that of the first that was not done

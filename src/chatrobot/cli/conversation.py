@@ -14,7 +14,7 @@ from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
 from chatrobot.core.reason import Reason
-from chatrobot.dialogue.replies import is_parting
+from chatrobot.dialogue.replies import AFTER_GOODBYE, is_parting
 from chatrobot.language.interpretation import LanguageCode
 
 PUMP_S = 0.1
@@ -95,6 +95,17 @@ class Conversation:
             with contextlib.suppress(LinkError):  # Motion is gone: the main thread tells
                 self.session.say(text)
 
+    def leave(self) -> None:
+        """End here: what was heard before is still done, what is said from now on is not."""
+        if self._setup.fast:
+            self.post(self.session.utterances.end_after)
+        else:
+            self.session.utterances.end_after()
+        self.post(self._part)
+
+    def _part(self) -> None:
+        self.has_parted = True
+
     @property
     def is_paused(self) -> bool:
         """A plan is paused."""
@@ -129,10 +140,11 @@ class Conversation:
         """As `do`, for a plan that a person wrote."""
         return self.see_through_edits(self.session.say_plan(plan_text))
 
-    def drop_if_stopped(self, texts: Sequence[str]) -> None:
-        """Say what is not begun, where a stop came while the robot was started."""
-        for text in texts if self.is_leaving else ():
-            self.show(Notice(0, Reason("dropped_by_stop", {"text": text})))
+    def tell_dropped(self, texts: Sequence[str]) -> None:
+        """Say what is not begun, where a stop came while the robot was started, or a goodbye before."""
+        code = "dropped_by_stop" if self.is_leaving else AFTER_GOODBYE
+        for text in texts if self.is_leaving or self.has_parted else ():
+            self.show(Notice(0, Reason(code, {"text": text})))
 
     def see_through_edits(self, turn: int) -> Result:
         """That turn, and those of what a person made of the plan or program that it asked about."""
@@ -150,7 +162,7 @@ class Conversation:
 
     def finish(self) -> None:
         """See everything through that was heard."""
-        while not self.has_parted and not (self.session.is_idle and self._posted.empty()):
+        while not (self.session.is_idle and self._posted.empty()):
             if self.session.waits_for_a_word and self._posted.empty():
                 self.session.stop("end of input")  # nobody is left to go on with what is paused
             self.step()
@@ -197,6 +209,8 @@ class Conversation:
 
     def _on_event(self, event: Event) -> None:
         self._approver.hear(event)
-        self.has_parted = self.has_parted or is_parting(event)
+        if is_parting(event):
+            self.has_parted = True
+            self.session.utterances.end_after(event.turn)
         if not self._approver.is_muted(event):
             self.show(event)

@@ -30,15 +30,18 @@ def run(args: argparse.Namespace) -> int:
     conversation = Conversation(setup_from(args, programs=True), printer, approver, recorded(args))
     Keyboard(conversation, approver).start()  # a stop may be typed while the robot starts
     with conversation:
-        conversation.drop_if_stopped([args.plan, *args.texts] if args.plan else args.texts)
+        conversation.tell_dropped([args.plan, *args.texts] if args.plan else args.texts)
         results: list[Result] = []
         if plan_text and not conversation.is_leaving:
             if args.texts:
                 printer.turn(args.plan)
             results.append(conversation.do_plan(plan_text))
         for number, text in enumerate(args.texts):
-            if conversation.is_leaving or conversation.has_parted:
+            if conversation.is_leaving:
                 break
+            if conversation.has_parted:
+                conversation.tell_dropped(args.texts[number:])
+                return EXIT_CODES["refused"]
             if not (args.keep_going or may_follow(text, results)):
                 rest = args.texts[number:]
                 reason = Reason(

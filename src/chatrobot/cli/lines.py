@@ -14,6 +14,8 @@ STDIN = 0
 MAX_LINE_BYTES = 65_536
 PASTE_S = 0.3
 """Lines that are pasted come at once; a terminal hands them on one by one."""
+GOODBYES = frozenset({"quit", "exit", "/quit", "/exit"})
+"""Lines that leave, as in other programs. "quit" is a stop word, too: it stops a robot that moves."""
 _ITEM = re.compile(r"(?:\(?\d{1,2}[.,:、，．)]|[-*•·])\s*\S")
 """A point of a list: `1, the car needs to …`, `- then turn`."""
 
@@ -67,13 +69,15 @@ def texts_in(lines: str) -> list[str]:
 
 
 class LineReader:
-    """Hands every text to `on_line`, in a thread of its own: see `Joiner`.
+    """Hands every text to `on_line`, in a thread of its own: see `Joiner`. Texts that come at once have one `on_read`
+    before them.
 
     Reads the descriptor itself: a buffered stream would be locked by this thread when the interpreter ends.
     """
 
-    def __init__(self, on_line: Callable[[str], None]) -> None:
+    def __init__(self, on_line: Callable[[str], None], on_read: Callable[[], None] = lambda: None) -> None:
         self._on_line = on_line
+        self._on_read = on_read
         self._ended = threading.Event()
         self._joiner = Joiner()
 
@@ -98,6 +102,7 @@ class LineReader:
             chunk = read_chunk()
             if not chunk:
                 break
+            self._on_read()
             *lines, rest = (rest + chunk).split(b"\n")
             for line in lines:
                 self._hand_on(line)

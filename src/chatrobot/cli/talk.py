@@ -11,10 +11,11 @@ from chatrobot.cli.approver import Approver
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.json_lines import printer_for
-from chatrobot.cli.lines import LineReader, TypedAhead
+from chatrobot.cli.lines import GOODBYES, PASTE_S, LineReader, TypedAhead
 from chatrobot.cli.recorder import recorded
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
+from chatrobot.reflex import is_stop
 
 
 def run(args: argparse.Namespace) -> int:
@@ -28,26 +29,52 @@ def run(args: argparse.Namespace) -> int:
     printer = printer_for(args)
     approver = Approver(can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver, recorded(args)) as conversation:
-        reader = LineReader(JsonInput(conversation, approver).hear if args.json else conversation.hear)
+        lines = PipedLines(conversation)
+        hear = JsonInput(lines, conversation, approver).hear if args.json else lines.hear
+        reader = LineReader(hear, lines.note_read)
         reader.start()
         while not (conversation.is_leaving or conversation.has_parted or reader.has_ended):
             session = conversation.session
             conversation.wait() if session.is_idle or session.waits_for_a_word else conversation.step()
         conversation.finish()
+        if conversation.has_parted:  # what came with the goodbye is named
+            reader.wait(PASTE_S)
+            conversation.finish()
     return conversation.exit_code
+
+
+class PipedLines:
+    """Lines of a pipe. One of `GOODBYES` ends them, but "quit" stops a robot that moved before it was read."""
+
+    def __init__(self, conversation: Conversation) -> None:
+        self._conversation = conversation
+        self._moves = False
+
+    def note_read(self) -> None:
+        """Note whether the robot moves where lines have come, which may come all at once. By the reader's thread."""
+        self._moves = self._conversation.session.is_moving
+
+    def hear(self, line: str) -> None:
+        """Called by the reader's thread."""
+        leaves = line.casefold() in GOODBYES
+        if not leaves or (self._moves and is_stop(line) and not line.startswith("/")):
+            self._conversation.hear(line)
+        if leaves:
+            self._conversation.leave()
 
 
 class JsonInput:
     """Lines of a `--json` session: text as it is, {"text": …}, or {"approve": true|false} for a plan that waits."""
 
-    def __init__(self, conversation: Conversation, approver: Approver) -> None:
+    def __init__(self, lines: PipedLines, conversation: Conversation, approver: Approver) -> None:
+        self._lines = lines
         self._conversation = conversation
         self._approver = approver
 
     def hear(self, line: str) -> None:
         """Called by the reader's thread."""
         if not line.startswith("{"):
-            self._conversation.hear(line)
+            self._lines.hear(line)
             return
         data = _read_object(line)
         text, yes = data.get("text"), data.get("approve")

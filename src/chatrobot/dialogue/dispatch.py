@@ -13,7 +13,7 @@ from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.question import Proposals
-from chatrobot.dialogue.replies import describe_waiting, parting
+from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
@@ -85,7 +85,11 @@ class Dispatch:
         return (*self._requests.texts_but(turn), *(utterance.text for utterance in self._utterances.held))
 
     def _drop(self, utterance: Utterance) -> None:
-        """End a turn that waited for what was stopped, or paused and not gone on with."""
+        """End a turn that came after a goodbye, or waited for what was stopped, or paused and not gone on with."""
+        if self._utterances.is_after_end(utterance.turn):
+            reply = self._understanding.say(AFTER_GOODBYE, utterance.text)
+            self._requests.conclude(utterance.turn, "refused", reply, reason=Reason(AFTER_GOODBYE))
+            return
         why = self._utterances.why_void(utterance.turn)
         was_held = self._utterances.waited_behind_pause(utterance.turn)
         code = "dropped_behind_pause" if was_held else "dropped_by_stop"

@@ -196,6 +196,8 @@ def describe_twist(twist: Twist, say: Callable[..., str]) -> str:
 
 PARTING = "parting"
 """The code of such an interpretation, and of the reason in its result."""
+AFTER_GOODBYE = "dropped_by_goodbye"
+"""The code of what was said after it."""
 
 
 def parting(meant: Interpretation) -> Reason | None:

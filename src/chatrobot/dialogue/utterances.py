@@ -5,6 +5,7 @@ A stop makes void what was said before it. Most texts wait for what runs, is tho
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import deque
@@ -20,6 +21,7 @@ from chatrobot.dialogue.programs.authoring import Authoring, NotWrittenError
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.program_request import read_request
 from chatrobot.link.envelope import QUEUE_LIMIT
@@ -72,6 +74,7 @@ class UtteranceQueue:
         """The last stop."""
         self._dropped_by = Reason("cause_unknown")
         self._gone_on_turn = 0
+        self._last_turn = math.inf
 
     def add(self, text: str, kind: Kind, about: Draft | str = "", *, is_moving: bool) -> int:
         """Take in a text; return the number of its turn. One too many for a moving robot becomes `too_many`."""
@@ -87,6 +90,10 @@ class UtteranceQueue:
         self.stopped_by = Reason("stopped_by", {"why": why})
         self._void_turn = self._turns
         return self._void_turn
+
+    def end_after(self, turn: int | None = None) -> None:
+        """Have nothing done of what is said after that turn, or from now on: the person has said goodbye."""
+        self._last_turn = min(self._last_turn, self._turns if turn is None else turn)
 
     def hold(self, *, is_under_way: bool) -> None:
         """Have what was said up to now and waits go on waiting, for a pause. No lock: it waits for nothing.
@@ -135,6 +142,10 @@ class UtteranceQueue:
         """Return whether a stop came after that turn was said."""
         return turn <= max(self._void_turn, self._dropped_turn)
 
+    def is_after_end(self, turn: int) -> bool:
+        """Return whether that turn was said after the goodbye, and before no stop."""
+        return turn > self._last_turn and not self.is_void_turn(turn)
+
     def why_void(self, turn: int) -> Reason:
         """Return why that turn, which is void, is not done."""
         return self.stopped_by if turn <= self._void_turn else self._dropped_by
@@ -144,8 +155,10 @@ class UtteranceQueue:
         return self._gone_on_turn < turn <= self._hold.turn
 
     def is_void(self, utterance: Utterance) -> bool:
-        """Return whether a stop came after it was said; what is no instruction is answered all the same."""
-        return utterance.is_instruction and self.is_void_turn(utterance.turn)
+        """Return whether a stop came after it was said, or a goodbye before; what is no instruction is answered all
+        the same."""
+        turn = utterance.turn
+        return utterance.is_instruction and (self.is_void_turn(turn) or self.is_after_end(turn))
 
     @property
     def waiting(self) -> tuple[Utterance, ...]:
@@ -257,7 +270,7 @@ class EarlyAnswers:
             return None
         for utterance in waiting:
             meant = self._look_at(utterance)
-            if meant is None or _teaches(meant) or meant.proposal:
+            if meant is None or _teaches(meant) or meant.proposal or read_consent(utterance.text) is not None:
                 return None  # what follows may be about it
             asks_back = meant.outcome == "unclear" and meant.code in NOT_UNDERSTOOD
             if asks_back and not meant.corrects:
