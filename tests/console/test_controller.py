@@ -9,7 +9,7 @@ from chatrobot.cli.console import commands
 from chatrobot.cli.console.controller import TWICE_S
 from chatrobot.cli.console.pasted import LONGEST_CHARS
 from chatrobot.core.events import Finished, Interpreted, Notice, Result, Started
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
 from tests.console.fakes import ask, shown, told
 
@@ -223,6 +223,29 @@ def test_a_command_that_takes_nothing_does_nothing_where_more_was_typed(controll
     controller.enter(typed)
     assert told(log) == []
     assert f"{typed.split()[0]} takes nothing behind it" in shown(log)
+
+
+@pytest.mark.parametrize("typed", ["quit", "Exit", "/exit", "/quit"])
+def test_quit_and_exit_leave_where_nothing_moves(controller, log, typed):
+    controller.enter(typed)
+    assert told(log) == [("leave", 0)]
+
+
+@pytest.mark.parametrize("moves", ["is ours", "is another's", "goes on"])
+def test_quit_stops_a_robot_that_moves_and_how_to_leave_is_told(controller, log, moves):
+    controller.session.is_idle = moves != "is ours"
+    controller.motion_view.is_moving = moves == "is another's"
+    controller.motion_view.twist = Twist(0.1, 0.0, 0.0) if moves == "goes on" else ZERO_TWIST
+    controller.enter("quit")
+    assert told(log) == [("say", "quit")]
+    assert "/quit, Ctrl-D or “bye” leaves." in shown(log)
+
+
+def test_exit_lets_a_robot_that_moves_finish_as_slash_quit_does(controller, log):
+    controller.session.is_idle = False
+    controller.enter("exit")
+    assert told(log) == []
+    assert "The robot finishes what it was told" in shown(log)
 
 
 def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(controller, log, tmp_path):

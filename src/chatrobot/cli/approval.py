@@ -82,6 +82,11 @@ class Approval(Question):
         return event.turn in self._muted and not (isinstance(event, Result) and event.has_moved)
 
 
+def is_answer(text: str) -> bool:
+    """Tell whether `text` says yes, no or edit."""
+    return read_consent(text) is not None or wants_to_edit(text)
+
+
 _OTHERWISE = "vi"
 """The editor where the person has named none."""
 

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 from rich.console import RenderableType
 from rich.text import Text
 
-from chatrobot.cli.approval import Approval
+from chatrobot.cli.approval import Approval, is_answer
 from chatrobot.cli.console.lines import Display, indented, marked, shown
 from chatrobot.cli.console.pasted import (
     LONGEST_CHARS,
     MOST_TEXTS,
     Pasted,
+    as_goodbye,
     clean,
     cut_at_stop,
     ends_a_paste,
@@ -29,7 +30,7 @@ from chatrobot.cli.console.pasted import (
 from chatrobot.cli.console.status_bar import StatusBar
 from chatrobot.cli.console.tables import way_map
 from chatrobot.cli.console.words import Words
-from chatrobot.cli.lines import texts_in
+from chatrobot.cli.lines import GOODBYES, texts_in
 from chatrobot.cli.narrator import Narrator
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
@@ -38,7 +39,6 @@ from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, T
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.replies import is_parting
-from chatrobot.language.consent import read_consent, wants_to_edit
 from chatrobot.programs.check import MAX_SOURCE_CHARS
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 
@@ -47,7 +47,6 @@ if TYPE_CHECKING:
 
 TWICE_S = 1.5
 """Two Ctrl-C within this time leave."""
-
 ECHO_CHARS = 600
 
 
@@ -99,7 +98,7 @@ class ChatController:
             self.stop_for_paste(cleaned)
             self.tell("line_too_long", limit=LONGEST_CHARS)
         elif len(texts) == 1:
-            self._enter_one(texts[0])
+            self._enter_one(as_goodbye(texts[0], self._may_move))
         elif is_plan(cleaned):
             self.say_plan(cleaned.strip(), cleaned.strip())
         elif texts:
@@ -107,8 +106,7 @@ class ChatController:
 
     def stop_for_paste(self, lines: str) -> None:
         """Stop the robot where one of these lines, pasted and not sent yet, says so."""
-        _, stop, _ = cut_at_stop(texts_in(lines), self._is_stop)
-        if stop:
+        if stop := cut_at_stop(texts_in(lines), self._is_stop)[1]:
             self.stop(stop)
 
     def _enter_one(self, text: str) -> None:
@@ -205,7 +203,7 @@ class ChatController:
         """Stop the robot and keep it stopped until it is released."""
         self.attempt(lambda: self.session.emergency_stop(why))
         self._tell_undone(self._pasted.drop())
-        self._raise_alarm()
+        self.latched, self._release_is_due = True, False
         self.display.refresh()
 
     def release(self) -> None:
@@ -221,16 +219,15 @@ class ChatController:
             self.attempt(lambda: self.session.say(text))
             undone = self._pasted.drop()
             self._echo(text)
+            if text.casefold() in GOODBYES:
+                self.tell("how_to_leave")
         else:
             with self._order:
                 undone = self._pasted.drop()
                 self._say_in_order(text)
         self._tell_undone(undone)
         if is_emergency_stop(text):
-            self._raise_alarm()
-
-    def _raise_alarm(self) -> None:
-        self.latched, self._release_is_due = True, False
+            self.latched, self._release_is_due = True, False
 
     def _say_in_order(self, text: str, *, is_pasted: bool = False) -> None:
         self.words.follow(text)
@@ -258,9 +255,12 @@ class ChatController:
     def _has_nothing_to_do(self) -> bool:
         return self.session.is_idle and not self._pasted.is_waiting
 
+    def _may_move(self) -> bool:
+        return not self._has_nothing_to_do or self.motion_view.is_moving or not self.motion_view.twist.is_zero
+
     def _answer(self, text: str) -> bool:
         """Answer the question whether to do a plan; False where `text` is no answer to it."""
-        if self._approval.turn is None or (read_consent(text) is None and not wants_to_edit(text)):
+        if self._approval.turn is None or not is_answer(text):
             return False
         self._echo(text)
         self.attempt(lambda: self._edit(self._approval.take(self.session, text)))
@@ -289,8 +289,8 @@ class ChatController:
         with self._order:
             lines: list[RenderableType] = [shown(line) for line in self.narrator.tell(event)]
             if asks:
-                question = Text(f"  {self.words.say('ask_approval')}", "bold")
-                lines += [way_map(self.motion_view, self.connection.world), question]
+                lines += [way_map(self.motion_view, self.connection.world)]
+                lines += [Text(f"  {self.words.say('ask_approval')}", "bold")]
             is_stop = isinstance(event, Interpreted) and event.by == "reflex" and not self._pauses_again
             if is_stop and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused):
                 self._approval.mute(event.turn)  # what was moving says how it ended

@@ -6,11 +6,13 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from textwrap import shorten
 
+from chatrobot.cli.lines import GOODBYES
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Outcome
 from chatrobot.language.phrases import say
 from chatrobot.link.envelope import QUEUE_LIMIT
 from chatrobot.plan.text import parse_plan
+from chatrobot.reflex import is_stop
 
 MOST_TEXTS = QUEUE_LIMIT + 1
 """One runs, the others wait."""
@@ -82,6 +84,12 @@ def must_be_typed(command: str) -> str:
     """Return the command's name where it must be typed by itself: what is pasted may be anybody's words."""
     word = (command[1:].casefold().split() or [""])[0]
     return word if word in _TYPED_ALONE else ""
+
+
+def as_goodbye(text: str, moves: Callable[[], bool]) -> str:
+    """Return `/quit` for `exit` and `quit`, which leave other programs; where the robot may move, "quit" is a stop."""
+    leaves = text.casefold() in GOODBYES and (text.startswith("/") or not (is_stop(text) and moves()))
+    return "/quit" if leaves else text
 
 
 def quoted(texts: Sequence[str], language: str) -> str:
