@@ -77,6 +77,30 @@ def test_listed_shown_edited_renamed_exported_and_removed(
     assert Library(tmp_path / "config" / "chatrobot").names() == ()
 
 
+def test_an_edit_that_is_no_python_leaves_the_kept_source_as_it_was(
+    chatrobot: Command, library: Library, tmp_path: Path
+) -> None:
+    source = program("self.drive(0.2, 0.0, 1.0)")
+    library.keep(KeptProgram("waltz", source))
+    bad = tmp_path / "bad.py"
+    bad.write_text("print(1)\nprint(2", encoding="utf-8")
+    done = chatrobot("program", "edit", "waltz", "--file", str(bad))
+    assert (done.code, done.out) == (2, "")
+    assert f"{bad}: Line 2 is not valid Python: '(' was never closed" in done.err
+    assert Library(tmp_path / "config" / "chatrobot").get("waltz").source == source
+
+
+def test_without_a_terminal_an_edit_asks_for_a_file_and_starts_no_editor(
+    chatrobot: Command, library: Library
+) -> None:
+    library.keep(KeptProgram("waltz", program("self.drive(0.2, 0.0, 1.0)")))
+    done = chatrobot("program", "edit", "waltz")
+    assert (done.code, "needs a terminal (chatrobot program edit 'waltz' --file FILE.py)" in done.err) == (
+        2,
+        True,
+    )
+
+
 @pytest.mark.parametrize(
     "arguments",
     [("program",), ("program", "rename", "x"), ("program", "run", "/no/such.py")],

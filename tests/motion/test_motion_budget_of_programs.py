@@ -97,6 +97,15 @@ def test_a_program_without_an_end_has_no_total_and_no_percentage(runner: Runner)
     assert [event.open_ended for event in runner.events if isinstance(event, Rehearsed)] == [True]
 
 
+def test_a_program_that_ends_by_itself_after_more_than_a_minute_is_not_cut(runner: Runner) -> None:
+    result = runner.run(program("self.drive(0.3, 0.0, 90.0)"))
+    assert (result.outcome, runner.codes()) == ("completed", [])
+    assert "of 27.00 m" in result.reply
+    refused = runner.run(program("self.drive(0.3, 0.0, 90.0)"), max_time_s=70.0)
+    assert refused.reason is not None
+    assert refused.reason.code == "over_max_time"
+
+
 def test_a_program_with_an_end_has_both(runner: Runner) -> None:
     assert f"of {2.0:.2f} m" in runner.run(TWO_METRES).reply
     assert None not in {event.fraction for event in runner.events if isinstance(event, Progress)}

@@ -18,6 +18,8 @@ from chatrobot.cli.parameters import with_parameter_files
 from chatrobot.cli.recorder import recorded
 from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
+from chatrobot.language.phrases import render_reason
+from chatrobot.programs.check import no_python
 from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.programs.ros_args import RosArgumentsError, check_args
 
@@ -163,13 +165,29 @@ def _show(args: argparse.Namespace) -> int:
 def _edit(args: argparse.Namespace) -> int:
     library = _library(args)
     program = library.get(args.name)
+    if not (args.file or has_keyboard()):
+        raise UsageError(
+            "an editor needs a terminal", allowed=f"chatrobot program edit {args.name!r} --file FILE.py"
+        )
     source = _read(Path(args.file).expanduser()) if args.file else edited_text(program.source, ".py")
     if source == program.source:
         print("Nothing was changed.")
         return 0
+    problem = no_python(source)
+    if problem is not None:
+        where = args.file or _set_aside(library.place(program.name), source)
+        way_out = f"“{program.name}” stays as it was; mend the file, then --file {where}"
+        raise UsageError(render_reason(problem.reason, "en").rstrip("."), where=where, allowed=way_out)
     library.edit(program.name, source)
     print(f"Saved “{program.name}”. It is rehearsed again when it runs.")
     return 0
+
+
+def _set_aside(place: str, source: str) -> str:
+    """Keep what was typed beside the program, for it to be mended; return where."""
+    path = Path(place).with_name("edited.py")
+    path.write_text(source, encoding="utf-8")
+    return str(path)
 
 
 def _rename(args: argparse.Namespace) -> int:

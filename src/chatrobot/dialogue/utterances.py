@@ -158,7 +158,7 @@ class UtteranceQueue:
         """Return whether a stop came after it was said, or a goodbye before; what is no instruction is answered all
         the same."""
         turn = utterance.turn
-        return utterance.is_instruction and (self.is_void_turn(turn) or self.is_after_end(turn))
+        return utterance.is_instruction and (self.is_void_turn(turn) or turn > self._last_turn)
 
     @property
     def waiting(self) -> tuple[Utterance, ...]:

@@ -82,19 +82,29 @@ class Checked:
 
 def check(source: str, profile: RobotProfile) -> Checked:
     """Read `source` for a robot of that profile. Never raises, whatever the source; nothing of it is run."""
-    if len(source) > MAX_SOURCE_CHARS:
-        return Checked(
-            (_mark("refuse", 0, "program_too_long", characters=len(source), limit=MAX_SOURCE_CHARS),)
-        )
+    problem = no_python(source)
+    if problem is not None:
+        return Checked((problem,))
     try:
         reader = _Reader(ast.parse(source), profile)
         found = {(mark.line, str(mark.reason)): mark for mark in reader.marks()}
-    except SyntaxError as error:
-        line = error.lineno or 0
-        return Checked((_mark("refuse", line, "program_syntax", line=line, problem=str(error.msg)),))
-    except (ValueError, RecursionError, MemoryError):  # nested too deep for this Python's parser, or for ours
+    except RecursionError:  # nested too deep for us
         return Checked((_mark("refuse", 0, "program_unreadable"),))
     return Checked(tuple(found[key] for key in sorted(found)), tuple(sorted(reader.remap.items())))
+
+
+def no_python(source: str) -> Mark | None:
+    """Return why `source` is no program at all; None where it is one. Never raises."""
+    if len(source) > MAX_SOURCE_CHARS:
+        return _mark("refuse", 0, "program_too_long", characters=len(source), limit=MAX_SOURCE_CHARS)
+    try:
+        ast.parse(source)
+    except SyntaxError as error:
+        line = error.lineno or 0
+        return _mark("refuse", line, "program_syntax", line=line, problem=str(error.msg))
+    except (ValueError, RecursionError, MemoryError):  # nested too deep for this Python's parser
+        return _mark("refuse", 0, "program_unreadable")
+    return None
 
 
 def _mark(severity: Severity, at_line: int, code: str, **values: Value) -> Mark:

@@ -7,13 +7,17 @@ from chatrobot.core.reason import Reason
 from chatrobot.motion.planner import Planned, Planner
 from chatrobot.motion.programs.clocks import LiveProgram, RealTimeProgram, SensorMailbox, SteppedProgram
 from chatrobot.motion.programs.goal import PlannedProgram, ProgramGoal
-from chatrobot.motion.programs.rehearsal import rehearse_program
+from chatrobot.motion.programs.rehearsal import HORIZON_S, ProgramRehearsal, rehearse_program
 from chatrobot.motion.remembered_obstacles import RememberedObstacles
+from chatrobot.programs.events import Died
 from chatrobot.programs.pipe import LATEST_S, ProgramSettings, robot_topics
 from chatrobot.programs.sandboxed import SandboxedProgram, warm_server
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import MAX_TIME_S, RobotProfile
 from chatrobot.sandbox.warm_server import WarmServer
 from chatrobot.wire.wire import Wire
+
+QUICK_S = 0.2
+"""What was rehearsed up to the horizon in less is rehearsed on: it may end by itself, only later."""
 
 
 class ProgramHost:
@@ -38,20 +42,29 @@ class ProgramHost:
         """Run it on virtual time, among what is known and what the lidar has seen, from where the goal starts."""
         try:
             self.warm()
-            rehearsal = rehearse_program(
-                self._server,
-                goal.code,
-                self._profile,
-                planner.world,
-                goal.start,
-                name=_file_name(goal.name),
-                remaps=goal.remap,
-                args=goal.args,
-                seen=seen,
-            )
+            rehearsal = self._rehearse(goal, planner, seen, HORIZON_S)
+            if rehearsal.ended == "horizon" and rehearsal.wall_s < QUICK_S:
+                longer = self._rehearse(goal, planner, seen, MAX_TIME_S)
+                rehearsal = rehearsal if longer.is_endless or isinstance(longer.end, Died) else longer
         except SandboxError as error:
             return Planned(goal.turn, None, error.reason)
         return PlannedProgram(goal.turn, None, program=rehearsal, name=goal.name, strict=goal.strict)
+
+    def _rehearse(
+        self, goal: ProgramGoal, planner: Planner, seen: RememberedObstacles | None, horizon_s: float
+    ) -> ProgramRehearsal:
+        return rehearse_program(
+            self._server,
+            goal.code,
+            self._profile,
+            planner.world,
+            goal.start,
+            name=_file_name(goal.name),
+            horizon_s=horizon_s,
+            remaps=goal.remap,
+            args=goal.args,
+            seen=seen,
+        )
 
     def launch(self, goal: ProgramGoal) -> LiveProgram | Reason:
         """Start it; return why where it cannot be."""
