@@ -101,6 +101,23 @@ def test_without_a_terminal_an_edit_asks_for_a_file_and_starts_no_editor(
     )
 
 
+@pytest.mark.parametrize("name", ["stop", "Emergency stop!", "halt an", "停", "pause"])
+def test_no_program_is_named_by_a_stop(chatrobot: Command, library: Library, name: str) -> None:
+    done = chatrobot("program", "new", "forward 1 m", "--name", name, *FAST)
+    assert (done.code, "cannot be the name of a program" in done.out) == (4, True)
+    library.keep(KeptProgram("waltz", program("self.drive(0.2, 0.0, 1.0)")))
+    done = chatrobot("program", "rename", "waltz", name)
+    assert (done.code, "cannot be the name of a program" in done.err) == (2, True)
+    assert Library(chatrobot.folder / "config" / "chatrobot").names() == ("waltz",)
+
+
+def test_a_name_that_is_taken_gets_a_number_and_that_is_said(chatrobot: Command, library: Library) -> None:
+    library.keep(KeptProgram("far", program("self.drive(0.2, 0.0, 1.0)")))
+    done = chatrobot("program", "new", "forward 10 cm", "--name", "far", "--yes", *FAST)
+    assert "There is a program “far” already, so this one is kept as “far 2”." in done.out
+    assert chatrobot("program", "rename", "far", "far").out == "“far” has that name already.\n"
+
+
 @pytest.mark.parametrize(
     "arguments",
     [("program",), ("program", "rename", "x"), ("program", "run", "/no/such.py")],

@@ -18,7 +18,8 @@ from chatrobot.cli.parameters import with_parameter_files
 from chatrobot.cli.recorder import recorded
 from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
-from chatrobot.language.phrases import render_reason
+from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.program_request import may_be_called
 from chatrobot.programs.check import no_python
 from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.programs.ros_args import RosArgumentsError, check_args
@@ -193,6 +194,11 @@ def _set_aside(place: str, source: str) -> str:
 def _rename(args: argparse.Namespace) -> int:
     library = _library(args)
     old = library.get(args.name).name
+    if old == clean_name(args.to):
+        print(f"“{old}” has that name already.")
+        return 0
+    if not may_be_called(args.to):
+        raise UsageError(say("en", "program_no_name", name=args.to).rstrip("."), allowed="another name")
     library.rename(old, args.to)
     print(f"Renamed “{old}” to “{clean_name(args.to)}”.")
     return 0

@@ -17,6 +17,7 @@ from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 from chatrobot.language.normalise import normalise
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import RawTwist, Repeat, Step
+from chatrobot.reflex import is_stop
 
 
 class Patterns(dict[str, re.Pattern[str]]):
@@ -128,6 +129,11 @@ def read_program_name(text: str, names: Iterable[str]) -> str | None:
     return None
 
 
+def may_be_called(name: str) -> bool:
+    """Tell whether a program of that name could be run by it: a stop is a stop, whatever else is called so."""
+    return not is_stop(name) and read_program_name(f"run {name}", [name]) is not None
+
+
 def _key(name: str) -> str:
     return " ".join(re.sub(r"[^\w ]+", " ", normalise(name).replace("_", " ")).split())
 
@@ -193,4 +199,5 @@ def _name(text: str, plain: str, body: str, tables: _Tables) -> str:
     words = re.findall(r"[^\W\d_]+", first)[:_NAME_WORDS]
     while words and words[-1] in _NEVER_LAST:
         words.pop()
-    return " ".join(words)[:_NAME_CHARS].strip() or "program"
+    name = " ".join(words)[:_NAME_CHARS].strip()
+    return name if name and may_be_called(name) else "program"

@@ -19,7 +19,7 @@ from chatrobot.dialogue.llm.prompt import mend_prompt, program_prompt
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.language.program_request import ProgramRequest, read_program_name
+from chatrobot.language.program_request import ProgramRequest, may_be_called, read_program_name
 from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
@@ -132,6 +132,8 @@ class Authoring:
         Raises:
             NotWrittenError: nobody could write it, and why.
         """
+        if not may_be_called(request.name):
+            raise NotWrittenError("refused", say(language, "program_no_name", name=request.name))
         if self.prefers_model and self.model is not None:
             return (yield from self._by_model(request, language))
         try:

@@ -33,6 +33,7 @@ from chatrobot.language.phrases import render_reason
 from chatrobot.language.program_request import ProgramRequest, read_request
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.models.seam import Message
+from chatrobot.programs.library import clean_name
 
 MENDABLE = frozenset(
     {
@@ -173,6 +174,9 @@ class ProgramRequests:
         except NotWrittenError as refusal:
             self._refuse(turn, text, refusal, language)
         else:
+            wanted, kept_as = clean_name(request.name), draft.program.name
+            if kept_as != wanted and self.authoring.library.find(wanted) is not None:
+                self._emit(Notice(turn, Reason("program_name_taken", {"name": wanted, "kept_as": kept_as})))
             yield from self._run(turn, text, draft)
 
     def _refuse(self, turn: int, text: str, refusal: NotWrittenError, language: LanguageCode) -> None:
