@@ -101,6 +101,7 @@ def test_chatrobot_stop_says_of_a_robot_that_stood_that_it_stood(chatrobot: Comm
 def test_chatrobot_stop_with_nothing_running_says_so(chatrobot: Command) -> None:
     done = chatrobot.apart("stop")
     assert (done.code, done.out) == (0, "nothing is running\n")
+    assert chatrobot("STOP") == done
 
 
 def test_chatrobot_stop_clears_away_what_a_killed_robot_left(chatrobot: Command, tmp_path: Path) -> None:

@@ -32,6 +32,12 @@ from tests.cli.running import Command
         (["eval", "no-such-file.yaml"], "no-such-file.yaml"),
         (["eval"], "FILE"),
         (["sim", "--world", "mars"], "home"),
+        (["Do", "hi"], "did you mean chatrobot do?"),
+        (["completion"], "bash|zsh|fish"),
+        (["do", "hi", "--yes", "--approve"], "--yes --approve: either of both"),
+        (["do", "hi", "--record", "a.txt"], "a.txt: a recording's name ends in .mcap"),
+        (["do", "--record", "a.txt", "hi"], "--record FILE.mcap"),
+        (["do", "hi", "--fast", "there", "-q"], "-q"),
     ],
 )
 def test_wrong_usage_names_what_is_allowed(chatrobot: Command, arguments: list[str], said: str) -> None:
@@ -61,6 +67,12 @@ def test_options_may_stand_before_or_after_the_command() -> None:
     assert before == after
     assert before.fast
     assert parse(["do", "stop"]).fast is False
+
+
+def test_texts_may_stand_on_both_sides_of_an_option() -> None:
+    parsed = parse(["do", "forward 1 m", "--fast", "turn left", "--world", "empty", "- back 1 m"])
+    assert parsed.texts == ["forward 1 m", "turn left", "- back 1 m"]
+    assert (parsed.fast, parsed.world) == (True, "empty")
 
 
 def test_a_text_may_begin_with_a_dash() -> None:

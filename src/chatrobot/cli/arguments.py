@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 
 from chatrobot import __version__
-from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of, all_known
+from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of, all_known, no_such_command
 from chatrobot.cli.options import Parser, add_defaults, add_options, joined, port, positive
 from chatrobot.cli.options import argument as _add
 from chatrobot.core.errors import UsageError
@@ -91,10 +91,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     arguments, ros_args = split_ros_args(joined(arguments))
     word = _first_word(arguments)
     if word is not None and word not in COMMANDS:
-        raise UsageError(
-            f"there is no command {word!r}",
-            allowed=f'commands: {", ".join(COMMANDS)}; to tell the robot something: chatrobot do "{word} …"',
-        )
+        raise no_such_command(word, COMMANDS)
     parsed = all_known(*commands_parser().parse_known_args(list(arguments)))
     parsed.program_args, parsed.ros_args = program_args, ros_args
     _check_texts(parsed)
@@ -314,7 +311,8 @@ def _report(parser: argparse.ArgumentParser) -> None:
 
 
 def _completion(parser: argparse.ArgumentParser) -> None:
-    _add(parser, "shell", choices=SHELLS, help="the shell whose script is printed")
+    shells = "|".join(SHELLS)
+    _add(parser, "shell", choices=SHELLS, metavar=shells, help="the shell whose script is printed")
     parser.epilog = _COMPLETION
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from chatrobot.cli.options import add_options, offer
@@ -60,20 +60,35 @@ def actions_of(
 _FAMILIES = {"world": WORLD_ACTIONS, "program": PROGRAM_ACTIONS}
 
 
+def no_such_command(word: str, commands: Iterable[str]) -> UsageError:
+    """Return the mistake of a word that is no command, with the one that may be meant."""
+    from difflib import get_close_matches  # late: `--help` must be there at once
+
+    if near := get_close_matches(word.casefold(), commands, n=1):
+        return UsageError(f"there is no command {word!r}", allowed=f"did you mean chatrobot {near[0]}?")
+    said = f'commands: {", ".join(commands)}; to tell the robot something: chatrobot do "{word} …"'
+    return UsageError(f"there is no command {word!r}", allowed=said)
+
+
 def all_known(parsed: argparse.Namespace, unknown: Sequence[str]) -> argparse.Namespace:
     """Return what was read, with a command ("" for none), where nothing is left over and no action is missing.
+
+    The texts of `do` may stand on both sides of its options: argparse leaves those behind them over.
 
     Raises:
         UsageError: with the help that tells more, or the actions.
     """
+    if parsed.command == "do" and not any(word.startswith("-") and " " not in word for word in unknown):
+        parsed.texts, unknown = [*parsed.texts, *unknown], ()
+    if hasattr(parsed, "yes") and hasattr(parsed, "approve"):
+        raise UsageError("either of both", where="--yes --approve", allowed="leave one out")
     parsed.command = parsed.command or ""
     said = " ".join(filter(None, ("chatrobot", parsed.command, getattr(parsed, "action", ""))))
     if unknown:
         from chatrobot.models.secret import scrub  # a key may have been typed where none belongs
 
-        is_file = getattr(parsed, "record", None) == "" and unknown[0][:1] != "-"
-        allowed = "--record FILE.mcap" if is_file else f"see {said} --help"
-        raise UsageError(f"'{said}' does not take {scrub(' '.join(unknown), None)}", allowed=allowed)
+        given = scrub(" ".join(unknown), None)
+        raise UsageError(f"'{said}' does not take {given}", allowed=f"see {said} --help")
     if parsed.command in _FAMILIES and not parsed.action:
         raise UsageError(f"'{said}' needs an action", allowed=", ".join(_FAMILIES[parsed.command]))
     return parsed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NoReturn, TypeVar
 
@@ -11,6 +12,7 @@ from chatrobot.options import COMMON, LIMITS, MODEL, OF_NODES, OPTIONS, SIMULATI
 from chatrobot.robots.profile import NONE, read_limit
 
 Number = TypeVar("Number", int, float)
+_FILE = re.compile(r"\S+\.[a-z]\w{1,4}")
 _KINDS: dict[Any, str] = {int: "a whole number", float: "a number"}
 
 
@@ -43,12 +45,19 @@ class _HelpText(argparse.RawDescriptionHelpFormatter):
 
 
 def joined(arguments: Sequence[str]) -> list[str]:
-    """Return them with `--record` and its file as one: without a file, what follows is no file but a text."""
+    """Return them with `--record` and its file as one: without a file, what follows is no file but a text.
+
+    Raises:
+        UsageError: what follows is a file, but no recording.
+    """
     found, rest = [], list(arguments)
     while rest and rest[0] != "--":
         word = rest.pop(0)
         if word == "--record":
-            word = f"--record={rest.pop(0) if rest and rest[0].endswith('.mcap') else ''}"
+            name = rest[0] if rest else ""
+            if _FILE.fullmatch(name) and not name.endswith(".mcap"):
+                raise UsageError(f"{name}: a recording's name ends in .mcap", allowed="--record FILE.mcap")
+            word = f"--record={rest.pop(0) if name.endswith('.mcap') else ''}"
         found.append(word)
     return [*found, *rest]
 
