@@ -122,10 +122,6 @@ def test_without_a_terminal_nobody_can_approve(chatrobot: Command) -> None:
     assert not done.named("started")
 
 
-def test_yes_approves_unasked(chatrobot: Command) -> None:
-    assert chatrobot("do", "forward 1 m", "--approve", "--yes", *FAST).code == 0
-
-
 # --- plan ---
 
 
@@ -310,6 +306,18 @@ def test_a_line_that_quits_lets_those_before_it_be_done_and_those_after_it_be_na
 def test_a_stop_after_a_line_that_quits_overtakes_it_all_the_same(chatrobot: Command) -> None:
     done = chatrobot("--json", *FAST, stdin="wait 3000 seconds\nquit\nstop\n")
     assert {event["turn"]: event["outcome"] for event in done.named("result")} == {1: "stopped", 2: "stopped"}
+
+
+@pytest.mark.parametrize("text", ["/limit", "/map big", "/release", "release the emergency stop"])
+def test_a_command_of_the_console_is_told_to_be_one(chatrobot: Command, text: str) -> None:
+    for done in (chatrobot("do", text, *FAST), chatrobot(*FAST, stdin=f"{text}\n")):
+        assert (done.code, " console" in done.out) == (4, True)
+        assert "did not understand" not in done.out
+
+
+def test_an_emergency_stop_is_said_to_end_with_the_command(chatrobot: Command) -> None:
+    done = chatrobot("do", "/estop", *FAST)
+    assert (done.code, "holds until this command ends" in done.out) == (5, True)
 
 
 def test_the_line_after_a_question_answers_it(chatrobot: Command) -> None:

@@ -140,11 +140,12 @@ def test_an_empty_line_is_nothing(controller, log):
     assert log == []
 
 
-def test_emergency_stop_latches_the_screen_until_release(controller, log):
+@pytest.mark.parametrize("code", ["released", "none_to_release"])
+def test_emergency_stop_latches_the_screen_until_release(controller, log, code):
     controller.enter("/estop")
     assert controller.latched
     controller.enter("/release")
-    controller.hear(Notice(1, Reason("released", {"source": "console"})))
+    controller.hear(Notice(1, Reason(code, {"source": "console"})))
     assert not controller.latched
     assert told(log) == [("emergency_stop", "/estop"), ("release",)]
     controller.enter("emergency stop")

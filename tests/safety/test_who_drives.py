@@ -130,6 +130,9 @@ def test_only_the_console_releases_an_emergency_stop(tmp_path: Path, source: str
     crowd.say("console", "plan", 2, plan_text="drive 0.1 m")
     crowd.live(2.0)
     assert crowd.end_of(2).outcome == "completed"
+    crowd.say("console", "release")
+    crowd.live(0.1)
+    assert crowd.notices()[1:] == ["released", "none_to_release"]
 
 
 def test_the_base_node_releases_an_emergency_stop_only_where_control_was_told_so(tmp_path: Path) -> None:

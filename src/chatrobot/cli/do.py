@@ -16,6 +16,7 @@ from chatrobot.cli.recorder import recorded
 from chatrobot.core.events import EXIT_CODES, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.language.consent import read_consent
+from chatrobot.reflex import is_emergency_stop
 
 
 def run(args: argparse.Namespace) -> int:
@@ -52,6 +53,8 @@ def run(args: argparse.Namespace) -> int:
             if len(args.texts) > 1 or plan_text:
                 printer.turn(text)
             results.append(conversation.do(text))
+            if is_emergency_stop(text):
+                conversation.show(Notice(results[-1].turn, Reason("emergency_stop_ends")))
     undone = [result for result in results if not goes_on_after(result.outcome)]
     if args.keep_going and undone and not conversation.is_leaving:
         return EXIT_CODES[undone[0].outcome]

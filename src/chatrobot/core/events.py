@@ -216,6 +216,10 @@ class Notice(Event, name="notice"):
     text: str = ""
 
 
+RELEASED = frozenset({"released", "none_to_release"})
+"""The reasons of notices that no emergency stop is set any more, or was."""
+
+
 @dataclass(frozen=True)
 class Finished(Event, name="finished", unmeasured=("start", "pose", "turned_rad", "path_m")):
     """Motion's end of a turn: what odometry measured, never what was asked for.

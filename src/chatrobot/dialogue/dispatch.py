@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -25,6 +26,16 @@ from chatrobot.link.envelope import OBSTACLE_RADIUS_M
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.reflex import is_release
+
+_COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
+
+
+def _of_the_console(text: str) -> str:
+    """Return the phrase that answers what is typed at the terminal console, "" for anything else."""
+    if is_release(text):
+        return "release_by_command"
+    return "command_of_console" if _COMMAND.match(text) else ""
 
 
 @dataclass(eq=False)
@@ -160,6 +171,10 @@ class Dispatch:
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
         meant = self._understanding.interpret(utterance.text, self._requests.under_way)
+        if meant.outcome == "unclear" and (code := _of_the_console(utterance.text)):  # no model guesses at it
+            reply = self._understanding.say(code, utterance.text, command=utterance.text.split()[0])
+            self._act_on(utterance, Interpretation("refused", reply, self._understanding.language))
+            return
         is_any_under_way = self._requests.is_any_with_motion or self._llm.is_busy
         if is_any_under_way and meant.is_about_turn_before:
             self._end_turn_before(utterance)

@@ -7,6 +7,7 @@ from collections import deque
 from typing import Any
 
 from chatrobot.core.events import (
+    RELEASED,
     Event,
     Limited,
     Notice,
@@ -87,7 +88,7 @@ class Record:
             return
         if reason.code == "emergency_stop":
             self.emergency = reason
-        elif reason.code == "released":
+        elif reason.code in RELEASED:
             self.emergency = None
 
     def happened(self) -> list[str]:

@@ -306,6 +306,7 @@ class Motion:
         if self._emergency is not emergency:
             return
         who = {"source": envelope.source}
+        code = "released" if self.latched is not None else "none_to_release"
         released = self._governor.release(envelope.source)
         newer = self._emergency
         if newer is not None and newer is not emergency:  # it came in between, and may have seen the old one
@@ -313,4 +314,4 @@ class Motion:
         elif not released:
             self._emit(Notice(envelope.turn, Reason("release_refused", who)))
         else:
-            self._emit(Notice(envelope.turn, Reason("released", who)))
+            self._emit(Notice(envelope.turn, Reason(code, who)))

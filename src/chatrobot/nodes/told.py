@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from chatrobot.core.events import Event, Finished, Notice, ProgramLog, Started
+from chatrobot.core.events import RELEASED, Event, Finished, Notice, ProgramLog, Started
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_end
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.nodes.log import Severity
 
 _GOOD_NEWS = frozenset(
-    {"alone_again", "wire_back", "released", "sensor_found", "cmd_vel_type_found", "odom_type_found"}
+    {"alone_again", "wire_back", "sensor_found", "cmd_vel_type_found", "odom_type_found", *RELEASED}
 )
 """Notices that ask nobody to do anything."""
 _ORDERED = frozenset({"stopped_by", "paused_by", "replaced", "handed_over", "overtaken"})

@@ -13,7 +13,7 @@ from typing import Any
 
 from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
-from chatrobot.core.events import Event, Finished, Notice, Remembered, Result
+from chatrobot.core.events import RELEASED, Event, Finished, Notice, Remembered, Result
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.link.motion_link import TURNS
 from chatrobot.plan.steps import Go, Plan
@@ -98,7 +98,7 @@ class Room:
     def _releases(self, notice: Notice) -> bool:
         """No alarm goes by a release that was asked for before it was raised."""
         is_ours = notice.reason.values.get("source") == "console"
-        return notice.reason.code == "released" and (self._release_is_due or not is_ours)
+        return notice.reason.code in RELEASED and (self._release_is_due or not is_ours)
 
     def note_alarm(self, is_set: bool) -> None:
         """Take note that another face of the session has set the emergency stop, or had it released."""

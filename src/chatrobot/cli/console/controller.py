@@ -35,7 +35,7 @@ from chatrobot.cli.narrator import Narrator
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
-from chatrobot.core.events import Event, Interpreted, Notice, Result, Started, Telemetry
+from chatrobot.core.events import RELEASED, Event, Interpreted, Notice, Result, Started, Telemetry
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.replies import is_parting
@@ -282,7 +282,7 @@ class ChatController:
     def hear(self, event: Event) -> None:
         """Take an event in and show it."""
         asks = self._approval.hear(event)
-        if isinstance(event, Notice) and event.reason.code == "released":
+        if isinstance(event, Notice) and event.reason.code in RELEASED:
             self._hear_release(str(event.reason.values.get("source")))
         if isinstance(event, ObstacleChanged):
             self.status_bar.show_world(self.connection.world)
