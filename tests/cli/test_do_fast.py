@@ -252,6 +252,15 @@ def wait_until_full(descriptor: int) -> None:
         before = waiting[0]
 
 
+def test_an_output_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "chatrobot", "do", "forward 1 m", *FAST]
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(
+            command, stdout=full, stderr=subprocess.PIPE, env=environment(tmp_path), timeout=PATIENCE_S
+        )
+    assert (done.returncode, b"standard output: No space left on device" in done.stderr) == (5, True)
+
+
 @pytest.mark.parametrize("closed", ["<&-", "<&- >&- 2>&-"])
 def test_closed_streams_do_no_harm(tmp_path: Path, closed: str) -> None:
     command = f'"{sys.executable}" -m chatrobot do "forward 1 m" --fast --world empty {closed}'

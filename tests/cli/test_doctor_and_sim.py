@@ -60,6 +60,16 @@ def test_what_two_checks_find_is_told_by_the_first() -> None:
     assert _told_once(first, []) == "it is broken"
 
 
+def test_a_socket_where_none_can_be_is_named_with_the_way_out(tmp_path: Path) -> None:
+    path = str(tmp_path / "none" / "robot.wire")
+    command = [sys.executable, "-m", "chatrobot", "sim", "--socket", path]
+    done = subprocess.run(
+        command, capture_output=True, env=environment(tmp_path), text=True, timeout=PATIENCE_S
+    )
+    said = f"{path}: no wire can be served there (No such file or directory) (--socket PATH: "
+    assert (done.returncode, said in done.stderr) == (2, True)
+
+
 def test_sim_serves_a_robot_until_ctrl_c(tmp_path: Path) -> None:
     path = tmp_path / "robot.wire"
     with subprocess.Popen(

@@ -42,6 +42,21 @@ def test_a_plan_of_a_file_is_held_to_the_limits_and_to_the_world(chatrobot: Comm
     assert "“turn left”" in after.out + after.err, "what follows a refused plan is not done"
 
 
+def test_a_plan_may_be_json_and_may_come_through_a_pipe(chatrobot: Command, tmp_path: Path) -> None:
+    steps = (
+        '{"steps": [{"kind": "drive", "distance_m": 0.5}, {"kind": "turn", "angle_rad": 1.5707963267948966}]}'
+    )
+    for file, said in ((plan(tmp_path, steps), ""), ("-", steps), ("-", "drive 0.5 m\nturn left 90 deg")):
+        done = chatrobot("do", "--plan", file, "--json", *FAST, stdin=said)
+        assert done.code == 0
+        assert done.named("interpreted")[0]["plan_text"] == "drive 0.5 m\nturn left 90 deg"
+    broken = chatrobot("do", "--plan", "-", *FAST, stdin='{"steps": [{"kind": "fly"}]}')
+    assert (broken.code, "standard input: steps[0].kind: 'fly' is not a kind of step" in broken.err) == (
+        2,
+        True,
+    )
+
+
 def test_a_broken_file_says_which_line_and_what_is_allowed(chatrobot: Command, tmp_path: Path) -> None:
     done = chatrobot("do", "--plan", plan(tmp_path, "# mine\ndrive 0.5 m\nturn lft 90 deg\n"), *FAST)
     assert done.code == 2

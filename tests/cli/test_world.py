@@ -120,5 +120,8 @@ def test_the_list_names_every_world_and_a_misspelt_one_gets_the_nearest(capsys: 
     assert main(["world", "list"]) == 0
     told = capsys.readouterr().out
     assert all(f"{name} " in told for name in world_names())
-    assert main(["world", "check", "clasroom"]) == 1
-    assert "did you mean classroom?" in capsys.readouterr().out
+    for action in ("check", "draw"):
+        assert main(["world", action, "clasroom"]) == 2
+        told = capsys.readouterr()
+        assert (told.out, told.err.startswith("chatrobot: there is no world named 'clasroom'")) == ("", True)
+        assert "did you mean classroom?" in told.err

@@ -45,6 +45,9 @@ class FakeSession:
     def limit(self, **limits):
         self._note("limit", limits)
 
+    def change_obstacle(self, **request):
+        self._note("obstacle", request)
+
     def approve(self, turn, yes, **_):
         self._note("approve", turn, yes)
 

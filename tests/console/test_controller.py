@@ -249,6 +249,19 @@ def test_exit_lets_a_robot_that_moves_finish_as_slash_quit_does(controller, log)
     assert "The robot finishes what it was told" in shown(log)
 
 
+@pytest.mark.parametrize(
+    "typed", ["add big 4 4 -1", "add big 4 4 0", "add big 1..2 4", "add big", "move big 1 1"]
+)
+def test_an_obstacle_that_cannot_be_gets_the_usage(controller, log, typed):
+    controller.connection.prepared = SimpleNamespace(setup=SimpleNamespace(on="sim"))
+    act = commands.BY_NAME["obstacle"].act
+    act(controller, typed)
+    assert told(log) == []
+    assert "/obstacle add NAME X Y [RADIUS]" in shown(log)
+    act(controller, "add big 4 -4.5 .5")
+    assert told(log) == [("obstacle", {"add": "big", "circle": [4.0, -4.5, 0.5]})]
+
+
 def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(controller, log, tmp_path):
     act = commands.BY_NAME["run-plan"].act
     (tmp_path / "my plan").write_text("drive 1 m\n")

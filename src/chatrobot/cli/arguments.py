@@ -191,7 +191,7 @@ def commands_parser() -> Parser:
 
 def _do(parser: argparse.ArgumentParser) -> None:
     _add(parser, "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue")
-    drive = "drive a saved plan, rehearsed anew; texts are the turns after it"
+    drive = "drive a saved plan, text or JSON (- for standard input), rehearsed anew; texts are the turns after it"
     _add(parser, "--plan", "files", metavar="FILE", help=drive)
     keep = "do the rest, too, after a turn that was refused, stopped or failed; the exit code is then"
     _add(parser, "--keep-going", action="store_true", help=f"{keep} that of the first of these")

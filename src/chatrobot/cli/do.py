@@ -25,7 +25,7 @@ def run(args: argparse.Namespace) -> int:
     Raises:
         UsageError: the plan's file cannot be used.
     """
-    plan_text = read_plan_file(args.plan) if args.plan else ""
+    plan_text = read_plan_file(args.plan, or_stdin=True) if args.plan else ""
     printer = printer_for(args)
     approver = Approver(can_ask=has_keyboard())
     conversation = Conversation(setup_from(args, programs=True), printer, approver, recorded(args))

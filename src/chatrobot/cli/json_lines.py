@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import select
 import sys
@@ -60,8 +61,10 @@ class Output:
         try:
             while data:
                 data = data[os.write(STDOUT, data) :]
-        except OSError:
+        except OSError as error:
             self._broken = True
+            if error.errno != errno.EPIPE:
+                print(f"chatrobot: standard output: {error.strerror}, so this ends here", file=sys.stderr)
 
     @property
     def is_broken(self) -> bool:

@@ -15,7 +15,8 @@ from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
-from chatrobot.plan.text import parse_plan
+from chatrobot.plan.json_form import plan_from_json
+from chatrobot.plan.text import format_plan, parse_plan
 
 
 def run(args: argparse.Namespace) -> int:
@@ -64,16 +65,20 @@ MOST_BYTES = 65_536
 """A longer file was most likely meant for something else; a plan is over after half an hour at the latest."""
 
 
-def read_plan_file(name: str) -> str:
-    """Return the text of the plan in that file.
+def read_plan_file(name: str, *, or_stdin: bool = False) -> str:
+    """Return the text of the plan in that file, which may have it as JSON. `or_stdin`: - is standard input.
 
     Raises:
         UsageError: there is no such file, or a line of it cannot be read; which, and what is allowed there.
     """
-    path = Path(name).expanduser()
+    path: Path | str = Path(name).expanduser()
     try:
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
+        if or_stdin and name == "-":
+            path = "standard input"
+            content = sys.stdin.buffer.read(MOST_BYTES + 1)
+        else:
+            with Path(path).open("rb") as file:
+                content = file.read(MOST_BYTES + 1)
         text = content.decode("utf-8-sig")
     except OSError as error:
         raise UsageError(error.strerror or "cannot be read", where=str(path)) from error
@@ -82,6 +87,8 @@ def read_plan_file(name: str) -> str:
     if len(content) > MOST_BYTES:
         raise UsageError("too long for a plan", where=str(path), allowed=f"at most {MOST_BYTES} bytes")
     try:
+        if text.lstrip().startswith("{"):
+            return format_plan(plan_from_json(text))
         parse_plan(text)
     except PlanTextError as error:
         raise UsageError(str(error), where=str(path)) from error

@@ -108,6 +108,8 @@ def _check(args: argparse.Namespace) -> int:
         file = find_world(args.world)
         found = [*_problems(file, profile)]
     except WorldError as error:
+        if not error.where:  # there is no such world to be checked
+            raise
         return _tell(args, [error])
     if found:
         return _tell(args, found)

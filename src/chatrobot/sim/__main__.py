@@ -110,7 +110,12 @@ def _open_wires(options: argparse.Namespace, profile: RobotProfile) -> Sequence[
     if options.on == "local":
         if not options.socket:
             raise UsageError("a simulated robot on a local wire needs --socket", where="--socket")
-        return [LocalHub(path) for path in options.socket]
+        try:
+            return [LocalHub(path) for path in options.socket]
+        except OSError as error:
+            problem = f"no wire can be served there ({error.strerror or error})"
+            allowed = "--socket PATH: a new file in a folder that is there"
+            raise UsageError(problem, where=", ".join(options.socket), allowed=allowed) from error
     address = f"{options.on}:" if options.on in ("dds", "ros") else options.on
     if not address.startswith(("dds:", "ros:", "rosbridge:")):
         raise UsageError(

@@ -177,8 +177,9 @@ def _limit(controller: ChatController, argument: str) -> None:
         controller.attempt(lambda: controller.session.limit(**limits))  # Motion says what holds then
 
 
+_NUMBER = r"(-?\d+\.?\d*|-?\.\d+)"
 _PUT = re.compile(
-    r"(?:add|put|放)\s+(.+?)\s+(-?[\d.]+)[\s,]+(-?[\d.]+)(?:[\s,]+([\d.]+))?(?:\s*m)?", re.IGNORECASE
+    rf"(?:add|put|放)\s+(.+?)\s+{_NUMBER}[\s,]+{_NUMBER}(?:[\s,]+{_NUMBER})?(?:\s*m)?", re.IGNORECASE
 )
 _TAKE = re.compile(r"(?:remove|take|拿走)\s+(.+)", re.IGNORECASE)
 
@@ -189,7 +190,7 @@ def _obstacle(controller: ChatController, argument: str) -> None:
     put, take = _PUT.fullmatch(argument), _TAKE.fullmatch(argument)
     if setup.on not in SIMULATED:
         controller.tell("obstacle_simulated_only")
-    elif put is not None:
+    elif put is not None and float(put[4] or OBSTACLE_RADIUS_M) > 0.0:
         circle = [float(put[2]), float(put[3]), float(put[4] or OBSTACLE_RADIUS_M)]
         controller.attempt(lambda: controller.session.change_obstacle(add=put[1], circle=circle))
     elif take is not None:
