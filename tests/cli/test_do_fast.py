@@ -98,6 +98,23 @@ def test_who_asks_in_chinese_is_answered_in_chinese(chatrobot: Command) -> None:
     assert "完成" in done.out
 
 
+@pytest.mark.parametrize(
+    ("locale", "strange", "program"),
+    [
+        ("zh_CN", "没听懂", "语言模型"),
+        ("de_DE", "nicht verstanden", "Sprachmodell"),
+        ("C", "did not", "language model"),
+    ],
+)
+def test_what_is_in_no_language_is_answered_in_that_of_the_system(
+    chatrobot: Command, monkeypatch: pytest.MonkeyPatch, locale: str, strange: str, program: str
+) -> None:
+    monkeypatch.setenv("LC_ALL", f"{locale}.UTF-8")
+    assert strange in chatrobot("do", "xyzzy", *FAST).out
+    assert program in chatrobot("program", "new", "xyzzy", *FAST).out
+    assert "Done: drove" in chatrobot("do", "forward 10 cm", *FAST).out
+
+
 def test_two_runs_with_one_seed_are_one_run(chatrobot: Command) -> None:
     arguments = ("do", "forward 1 m", "--json", "--trace", "--sim", "noise=on,seed=7", *FAST)
     assert chatrobot(*arguments).named("pose") == chatrobot(*arguments).named("pose")

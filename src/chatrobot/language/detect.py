@@ -38,6 +38,14 @@ def spoken(text: str, context: Context) -> LanguageCode:
     return language_of(text, language)
 
 
+def told_in(text: str, language: LanguageCode, context: Context) -> LanguageCode:
+    """The language in which to ask back about `text`: without a word of English, that which was spoken before."""
+    is_strange = language == "en" and not any(
+        map(_is_english, _WORD.findall(text[:MAX_CHARACTERS].casefold()))
+    )
+    return context.language or language if is_strange else language
+
+
 def _is_german(word: str) -> bool:
     """Whether a word is German and no English one."""
     only, _, letters = _words()

@@ -29,7 +29,7 @@ from chatrobot.language.beside import (
 from chatrobot.language.compass import split_convention
 from chatrobot.language.consent import after_consent
 from chatrobot.language.context import Context
-from chatrobot.language.detect import spoken
+from chatrobot.language.detect import spoken, told_in
 from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import with_known_counts
 from chatrobot.language.forms import read_definition
@@ -136,7 +136,7 @@ class OfflineInterpreter:
                 or self._likeliest(problem, text, reading)
             )
             asked = asked or (meant if meant is not None and meant.proposal is not None else None)
-            asked = asked or asked_back(problem, language, context.dialogue.last_text)
+            asked = asked or asked_back(problem, told_in(text, language, context), context.dialogue.last_text)
             return replace(asked, corrects=says_meant(text))
 
     def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:

@@ -168,7 +168,9 @@ class Authoring:
             return Plan(request.steps)
         meant = self._interpret(request.body) if request.body else None
         if meant is None or meant.outcome in ("unclear", "stop", "answered"):
-            raise NotWrittenError("unclear", say(language, "program"))
+            raise NotWrittenError(
+                "unclear", say(meant.language if meant is not None else language, "program")
+            )
         if meant.plan is None:
             raise NotWrittenError("refused", meant.reply)
         return meant.plan
