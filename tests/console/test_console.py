@@ -5,6 +5,7 @@ import sys
 
 import psutil
 import pytest
+from rich.cells import cell_len
 
 from tests.console.terminal import Terminal, console
 
@@ -333,6 +334,8 @@ def test_a_dumb_terminal_gets_plain_lines_and_does_a_paste_line_by_line(tmp_path
 def test_a_narrow_terminal_gets_plain_lines(tmp_path):
     with console(tmp_path, columns=30) as chat:
         chat.wait_for("/help")
+        greeting = chat.raw.decode().split("starting")[1].splitlines()[1:]
+        assert max(map(cell_len, greeting)) <= 30, "no line is left for the terminal to break within a word"
         chat.type(b"\xff\xfe weird\n")
         chat.wait_for(r"\?")
         chat.type("\x04")

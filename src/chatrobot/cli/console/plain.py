@@ -16,7 +16,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.lines import PASTE_S
 from chatrobot.reflex import is_stop
 
-LEAST_WIDTH = 40
+LEAST_WIDTH, READABLE_WIDTH = 40, 16
 _SIGNALS = (signal.SIGINT, signal.SIGTSTP, signal.SIGHUP, signal.SIGTERM)
 HANGUP_CODE = 129
 READ_BYTES = 65536
@@ -39,7 +39,7 @@ class Plain:
         self._is_at_prompt = False
         self._console = Console(
             file=sys.stdout, no_color=True, force_terminal=False, highlight=False, markup=False, emoji=False,
-            width=max(LEAST_WIDTH, self.width),
+            width=max(READABLE_WIDTH, self.width),
         )  # fmt: skip
 
     def run(self) -> int:
