@@ -187,6 +187,17 @@ def test_every_line_of_a_pipe_is_done_before_goodbye(chatrobot: Command) -> None
     assert "90" in done.out.splitlines()[-1]
 
 
+def test_lines_about_a_text_of_a_pipe_stand_under_it(chatrobot: Command) -> None:
+    out = chatrobot(*FAST, stdin="forward 1 m\nblorf\nback 2 m\n").out
+    about = dict.fromkeys(("forward 1 m", "blorf", "back 2 m"), "")
+    for part in out.removeprefix("> ").split("\n> "):
+        text, _, lines = part.partition("\n")
+        about[text] += lines
+    assert "Done: drove 1.00 m of 1.00 m." in about["forward 1 m"]
+    assert "I did not understand “blorf”" in about["blorf"]
+    assert "Done: drove 2.00 m of 2.00 m." in about["back 2 m"]
+
+
 def test_a_last_line_without_its_newline_counts(chatrobot: Command) -> None:
     assert len(chatrobot("--json", *FAST, stdin="forward 1 m\nback 1 m").named("result")) == 2
 

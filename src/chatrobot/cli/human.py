@@ -10,7 +10,7 @@ from chatrobot.cli.narrator import Narrator
 from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import fixed
+from chatrobot.core.reason import fixed, one_line
 from chatrobot.language.interpretation import LanguageCode
 
 _CLEAR_LINE = "\r\x1b[K"
@@ -30,6 +30,8 @@ class HumanPrinter:
         self._way = _Way()
         self._has_status = False
         self._streamed = 0
+        self._said: dict[int, str] = {}
+        self._turn = self._headed = 0
 
     @property
     def is_broken(self) -> bool:
@@ -40,9 +42,14 @@ class HumanPrinter:
         """Show what begins a turn."""
         self._line(f"> {text}")
 
+    def note_said(self, turn: int, text: str) -> None:
+        """Head the lines about that turn with its text, wherever they begin among those of others. From any thread."""
+        self._said[turn] = one_line(text)
+
     def show(self, event: Event, language: LanguageCode) -> None:
         """Show an event, in the language of the question."""
         self._words.language = language
+        self._turn = event.turn
         match event:
             case events.Streamed() if self._streamed != event.turn:
                 self._streamed, self._way = event.turn, _Way()
@@ -83,6 +90,9 @@ class HumanPrinter:
 
     def _line(self, text: str) -> None:
         self.clear()
+        if self._turn != self._headed and self._turn in self._said:
+            self._headed = self._turn
+            self._output.write(f"> {self._said[self._turn]}\n")
         self._output.write(f"{text}\n")
 
 

@@ -26,9 +26,13 @@ def run(args: argparse.Namespace) -> int:
 
         typed_ahead = args.early.typed_ahead if args.early is not None else TypedAhead()
         return run_console(setup, typed_ahead, recorded(args, unasked=True), has_page=args.web)
+    from chatrobot.cli.human import HumanPrinter  # late: the console is there sooner
+
     printer = printer_for(args)
     approver = Approver(can_ask=False, others_answer=args.json)
     with Conversation(setup, printer, approver, recorded(args)) as conversation:
+        if isinstance(printer, HumanPrinter):
+            conversation.session.on_said = printer.note_said
         lines = PipedLines(conversation)
         hear = JsonInput(lines, conversation, approver).hear if args.json else lines.hear
         reader = LineReader(hear, lines.note_read)
