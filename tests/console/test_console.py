@@ -86,7 +86,7 @@ def test_tab_completes_commands_and_places(at_home):
     at_home.type("\t")
     at_home.wait_for("› /release")
     at_home.type("\r")
-    at_home.wait_for("The emergency stop is released")
+    at_home.wait_for("No emergency stop was set")
     at_home.type("go to the kitc\t")
     at_home.wait_for("› go to the kitchen")
 
