@@ -30,7 +30,7 @@ from chatrobot.core.errors import UsageError
             ["world", "draw", "home", "--png", "x.png"],
             "does not take --png x.png (see chatrobot world draw --help)",
         ),
-        (["do", "hi", "--record", "hi.txt"], "'chatrobot do' does not take hi.txt (--record FILE.mcap)"),
+        (["do", "hi", "--record", "hi.txt"], "hi.txt: a recording's name ends in .mcap"),
         (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
     ],
 )
