@@ -66,7 +66,7 @@ EIGHT = "arc left 360 deg radius 0.6 m; arc right 360 deg radius 0.6 m"
         ("继续走", "unclear"),
         ("前进一米再左转,左转之前等两秒", "drive 1 m; wait 2 s; turn left 90 deg"),
         ("先左转九十度再前进一米,不过左转之前先倒退半米", "drive 0.5 m back; turn left 90 deg; drive 1 m"),
-        ("直行四米,在两米处停三秒", "unclear"),
+        ("直行四米,中途在两米处停三秒", "drive 2 m; wait 3 s; drive 2 m"),
         ("直走六米,第三米处右转", "unclear"),
         ("前进1米左转90度重复四次但是最后一次不用转", "unclear"),
         ("真的假的 三圈喔", "unclear"),
