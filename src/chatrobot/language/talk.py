@@ -108,12 +108,14 @@ def may_be_talk(meant: Interpretation, text: str, language: str, context: Contex
 
 def _answers_others(clauses: Sequence[Clause], last: TurnRecord, context: Context) -> bool:
     """`Two metres twenty`, after `how wide is that couch?`: a question that nobody asked the robot."""
-    asked = last.outcome == "unclear" and last.text.rstrip().endswith(("?", "？"))
+    before = read_acts(normalise(last.text), names_in(context))
+    is_question = last.text.rstrip().endswith(("?", "？")) or any(read.clause.asks for read in before)
+    asked = last.outcome in ("unclear", "answered") and is_question
     signs = [sign for clause in clauses for sign in clause.signs]
     moving = {"AMOUNT" if sign.label in _AMOUNT else sign.label for sign in signs if sign.moves}
     if not asked or len(moving) != 1 or not moving <= _NAMED or any(sign.label in _ASKING for sign in signs):
         return False
-    return order_log_odds(read_acts(normalise(last.text), names_in(context))) < MAYBE_ORDER
+    return order_log_odds(before) < MAYBE_ORDER
 
 
 _WAYS = frozenset({("flag", "same_way"), ("flag", "other_way")})
