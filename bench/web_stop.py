@@ -53,7 +53,7 @@ def compute():
         pass
 def start_and_listen(self, *sockets):
     start(self, *sockets)
-    signal.signal(signal.SIGUSR1, lambda *_: self.call(compute))
+    signal.signal(signal.SIGUSR1, lambda *_: self._threads[1].loop.call_soon_threadsafe(compute))
 server.WebServer.start = start_and_listen
 sys.exit(main(sys.argv[1:]))
 """
