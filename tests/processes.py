@@ -23,6 +23,14 @@ PATIENCE_S = 30.0
 T = TypeVar("T")
 
 
+def wait_until(holds: Callable[[], bool], timeout_s: float = PATIENCE_S) -> None:
+    """Wait until something is so."""
+    ends_s = time.monotonic() + timeout_s
+    while not holds():
+        assert time.monotonic() < ends_s, "it did not come to that"
+        time.sleep(0.01)
+
+
 class Heard:
     """A callback that keeps all messages with their times: `wire.subscribe("cmd_vel", TwistMessage, Heard())`."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from contextlib import ExitStack, closing
 
 import pytest
@@ -16,7 +14,7 @@ from chatrobot.wire.dds.wire import DdsWire
 from chatrobot.wire.discovery import Discovery
 from chatrobot.wire.messages import Text
 from tests.nodes import node_rig
-from tests.processes import PATIENCE_S
+from tests.processes import wait_until
 
 ADDRESS = wire_address("dds")
 
@@ -28,13 +26,6 @@ def domain() -> Discovery:
 
 def is_heard(node: InputNode) -> bool:
     return node.say("forward 30 cm")
-
-
-def wait_until(holds: Callable[[], bool]) -> None:
-    """Others are discovered, and missed, after a while."""
-    ends_s = time.monotonic() + PATIENCE_S
-    while not holds():
-        assert time.monotonic() < ends_s
 
 
 def test_an_order_that_no_base_hears_is_told(domain: Discovery) -> None:

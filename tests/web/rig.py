@@ -245,11 +245,3 @@ def serving(
         yield rig
     finally:
         rig.close()
-
-
-def wait_until(holds: Callable[[], bool], timeout_s: float = PATIENCE_S) -> None:
-    """Wait until something is so."""
-    ends_s = time.monotonic() + timeout_s
-    while not holds():
-        assert time.monotonic() < ends_s, "it did not come to that"
-        time.sleep(0.01)

@@ -14,7 +14,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from chatrobot.web.access import Access, Pass, Refusal
 from chatrobot.web.class_recordings import ClassRecordings, recording_routes
 from chatrobot.web.limits import Guesses
-from tests.web.rig import Client, WebRig, serving, wait_until
+from tests.processes import wait_until
+from tests.web.rig import Client, WebRig, serving
 
 
 def status_of(rig: WebRig, path: str = "/ws", **how: Any) -> int:

@@ -19,10 +19,10 @@ from websockets.exceptions import InvalidStatus
 
 from chatrobot.cli.entry import main
 from chatrobot.programs.library import KeptProgram, Library
-from tests.processes import Heard
+from tests.processes import Heard, wait_until
 from tests.web.browser import browser, find_violations, open_page
 from tests.web.class_rig import RunningClass, robots_where
-from tests.web.rig import Client, wait_until
+from tests.web.rig import Client
 
 __all__ = ["browser"]
 pytestmark = pytest.mark.realtime

@@ -18,8 +18,8 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from tests.cli.running import Command
-from tests.processes import RunningRobot
-from tests.web.rig import Client, wait_until
+from tests.processes import RunningRobot, wait_until
+from tests.web.rig import Client
 
 pytestmark = pytest.mark.realtime
 ARGUMENTS = ("web", "--no-open", "--port", "0", "--world", "empty")

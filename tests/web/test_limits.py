@@ -17,7 +17,8 @@ from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.web import limits
 from chatrobot.web.limits import Rate
 from chatrobot.web.protocol import FIELDS, MalformedError, read_message
-from tests.web.rig import Client, WebRig, wait_until
+from tests.processes import wait_until
+from tests.web.rig import Client, WebRig
 
 TELEMETRY = Telemetry(0, ORIGIN, Twist(), 0.0)
 

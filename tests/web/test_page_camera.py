@@ -9,8 +9,9 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser, expect
 
+from tests.processes import wait_until
 from tests.web.browser import browser, find_violations, open_page
-from tests.web.rig import serving, wait_until
+from tests.web.rig import serving
 
 __all__ = ["browser"]
 pytestmark = pytest.mark.realtime

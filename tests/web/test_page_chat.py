@@ -28,8 +28,9 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
 from chatrobot.link.motion_link import TURNS
+from tests.processes import wait_until
 from tests.web.browser import PLAN, browser, count_pixels, open_page, page, rehearse, say, write_program
-from tests.web.rig import WebRig, wait_until
+from tests.web.rig import WebRig
 
 __all__ = ["browser", "page"]
 pytestmark = pytest.mark.realtime

@@ -12,8 +12,9 @@ from chatrobot.core.events import Paused, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.sim.shapes import Circle
+from tests.processes import wait_until
 from tests.web.browser import DESKTOP, PHONE, browser, open_page, page, rehearse
-from tests.web.rig import WebRig, wait_until
+from tests.web.rig import WebRig
 
 __all__ = ["browser", "page"]
 pytestmark = pytest.mark.realtime

@@ -13,6 +13,7 @@ from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.web.access import Access
 from chatrobot.web.server import WebServer
 from chatrobot.web.words import told
+from tests.processes import wait_until
 from tests.web.browser import (
     DESKTOP,
     PHONE,
@@ -25,7 +26,7 @@ from tests.web.browser import (
     say,
     write_program,
 )
-from tests.web.rig import WebRig, wait_until
+from tests.web.rig import WebRig
 
 __all__ = ["browser", "page"]
 pytestmark = pytest.mark.realtime

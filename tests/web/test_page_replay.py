@@ -17,10 +17,9 @@ from chatrobot.core.events import Telemetry
 from chatrobot.recording.playback import shown
 from chatrobot.recording.reader import read
 from chatrobot.sim.load import load_world
-from tests.processes import TalkingProcess
+from tests.processes import TalkingProcess, wait_until
 from tests.report.recorded import session
 from tests.web.browser import browser, open_page
-from tests.web.rig import wait_until
 
 __all__ = ["browser"]
 pytestmark = pytest.mark.realtime

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.processes import wait_until
 from tests.web.browser import browser, count_pixels, open_page
-from tests.web.rig import wait_until
 
 __all__ = ["browser"]
 pytestmark = pytest.mark.realtime

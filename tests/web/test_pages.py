@@ -7,7 +7,8 @@ import pytest
 from chatrobot.core.events import FindingSeen, Interpreted, Limited, Notice, Rehearsed, Result, Telemetry
 from chatrobot.core.geometry import ORIGIN, Twist
 from chatrobot.core.reason import Reason
-from tests.web.rig import WebRig, wait_until
+from tests.processes import wait_until
+from tests.web.rig import WebRig
 
 RESULT = Result(1, "completed", "Done: drove 0.50 m of 0.50 m.")
 

@@ -12,7 +12,8 @@ from chatrobot.core.events import Finished, Rehearsed, Result
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Twist
 from chatrobot.link.motion_link import TURNS
 from chatrobot.web.steering import FIRST_BEAT_S, Steering, Watchdog
-from tests.web.rig import PATIENCE_S, NotingSession, WebRig, wait_until
+from tests.processes import wait_until
+from tests.web.rig import PATIENCE_S, NotingSession, WebRig
 
 FORWARD = Twist(0.2)
 SINCE_BEAT_S = 0.04

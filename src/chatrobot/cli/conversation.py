@@ -98,9 +98,9 @@ class Conversation:
     def leave(self) -> None:
         """End here: what was heard before is still done, what is said from now on is not."""
         if self._setup.fast:
-            self.post(self.session.utterances.end_after)
+            self.post(self.session.end_after)
         else:
-            self.session.utterances.end_after()
+            self.session.end_after()
         self.post(self._part)
 
     def _part(self) -> None:
@@ -211,6 +211,6 @@ class Conversation:
         self._approver.hear(event)
         if is_parting(event):
             self.has_parted = True
-            self.session.utterances.end_after(event.turn)
+            self.session.end_after(event.turn)
         if not self._approver.is_muted(event):
             self.show(event)

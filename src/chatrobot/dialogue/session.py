@@ -67,27 +67,27 @@ class Session:
         """Hears, in the thread that says it, each text that was taken in, with the number of its turn."""
         self._resuming = Resuming(understanding)
         self._goals = GoalClient(link, options, self._resuming)
-        self.utterances = UtteranceQueue()
-        self._proposals = Proposals(understanding, self.utterances.is_void_turn, self.approve)
+        self._utterances = UtteranceQueue()
+        self._proposals = Proposals(understanding, self._utterances.is_void_turn, self.approve)
         self._requests = RequestLog(understanding, self._emit)
         self._llm = ModelRequests(
             model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
-            lambda: self.utterances.pauses,
+            lambda: self._utterances.pauses,
         )  # fmt: skip
         self.authoring = authoring
         early = EarlyAnswers(understanding, self._llm, self._requests, authoring)
-        waiting, log, awaits = self.utterances, self._requests, self._proposals.awaits
+        waiting, log, awaits = self._utterances, self._requests, self._proposals.awaits
         self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early, awaits)
         self._programs: ProgramRequests | None = None
         self._steered_at_s = -math.inf
         if authoring is not None:
             self._programs = ProgramRequests(
                 authoring, understanding, self._requests, self._goals, link, self._emit,
-                self.utterances.is_void_turn, self._finish,
+                self._utterances.is_void_turn, self._finish,
             )  # fmt: skip
             self._llm.writer = self._programs
         self._dispatch = Dispatch(
-            link, self._goals, self.utterances, understanding, self._requests, self._proposals, self._resuming,
+            link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
             self._llm, self._programs, self._emit, self.stop, self._hears_robot_soon,
         )  # fmt: skip
 
@@ -142,19 +142,19 @@ class Session:
         return self._take_in(name, "source", source)
 
     def _take_in(self, text: str, kind: Kind, about: Draft | str = "") -> int:
-        turn = self.utterances.add(text, kind, about, is_moving=self.is_moving)
+        turn = self._utterances.add(text, kind, about, is_moving=self.is_moving)
         self.on_said(turn, text)
         self._link.wake()
         return turn
 
     def stop(self, why: str = "") -> None:
         """Stop the robot and drop what was said before this moment."""
-        self._link.send("stop", self.utterances.void(why), why=why)
-        self._llm.cancel(self.utterances.stopped_by)
+        self._link.send("stop", self._utterances.void(why), why=why)
+        self._llm.cancel(self._utterances.stopped_by)
 
     def pause(self, why: str = "") -> None:
         """Stop the robot as `stop` does, and keep what it was told; what cannot be kept ends as with a stop."""
-        self.utterances.hold(is_under_way=self.is_moving or self._llm.is_busy)
+        self._utterances.hold(is_under_way=self.is_moving or self._llm.is_busy)
         self._link.send("stop", why=why, keep=True)
         self._llm.cancel_unmoved(Reason("paused_by", {"why": why}))
 
@@ -164,8 +164,8 @@ class Session:
 
     def emergency_stop(self, why: str = "") -> None:
         """Stop the robot and keep it stopped until `release`."""
-        self._link.send("emergency_stop", self.utterances.void(why), why=why)
-        self._llm.cancel(self.utterances.stopped_by)
+        self._link.send("emergency_stop", self._utterances.void(why), why=why)
+        self._llm.cancel(self._utterances.stopped_by)
 
     def steer(self, twist: Twist) -> None:
         """Drive by a stick that a person holds: say it anew 20 times a second while it is held, and once zero.
@@ -213,7 +213,7 @@ class Session:
     @property
     def is_paused(self) -> bool:
         """True while a plan of ours is paused, or what was said and had not begun."""
-        return self.is_plan_paused or self.utterances.is_unbegun_held
+        return self.is_plan_paused or self._utterances.is_unbegun_held
 
     @property
     def is_plan_paused(self) -> bool:
@@ -234,7 +234,7 @@ class Session:
     def is_idle(self) -> bool:
         """True where nothing runs, is thought about or waits."""
         is_thinking = self._llm.is_busy or self._llm.is_writing
-        return not (self._requests.is_any_with_motion or self.utterances.waiting or is_thinking)
+        return not (self._requests.is_any_with_motion or self._utterances.waiting or is_thinking)
 
     # --- the pumping thread ---
 
@@ -272,6 +272,10 @@ class Session:
             self._hear(event)
             timeout_s = 0.0
 
+    def end_after(self, turn: int | None = None) -> None:
+        """Have nothing done of what is said after that turn, or from now on: the person has said goodbye."""
+        self._utterances.end_after(turn)
+
     def close(self) -> None:
         """Say goodbye: what runs is still done."""
         self._link.close()
@@ -281,27 +285,24 @@ class Session:
         self._on_event(event)
 
     def _find_next(self) -> Utterance | None:
-        """The text to take now, if any."""
         return self._next.find(self.options, self._dispatch.waiting_turn)
 
     def _take_texts(self) -> None:
-        for one in self.utterances.take_too_many():
-            # Who said one too many hears so now, not when the ten before it are done.
+        for one in self._utterances.take_too_many():  # who said it hears so now, not after the ten before
             self._requests.conclude(one.turn, "refused", self.understanding.say("queue_full", one.text))
         self._next.drop_held()
         while (found := self._find_next()) is not None:
-            self._goals.pauses = self.utterances.pauses
-            if (taken := self.utterances.take(found)) is not None:
+            self._goals.pauses = self._utterances.pauses
+            if (taken := self._utterances.take(found)) is not None:
                 self._dispatch.take(taken)
                 self._next.drop_held()
 
     def _hears_robot_soon(self) -> bool:
         """A robot that is there says where it is within a moment of the start."""
         for _ in range(FIRST_NEWS_LOOKS):
-            self._hear_events(FIRST_NEWS_LOOK_S)
-            if self.understanding.hears_robot:
-                return True
-        return False
+            if not self.understanding.hears_robot:
+                self._hear_events(FIRST_NEWS_LOOK_S)
+        return self.understanding.hears_robot
 
     def _conclude_model_turn(self, turn: int, text: str, ended: Ended) -> None:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
@@ -327,7 +328,7 @@ class Session:
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
             if was_paused and not self.is_plan_paused:
-                self.utterances.drop_held(self._resuming.ended_by)
+                self._utterances.drop_held(self._resuming.ended_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._llm.hear(event)
@@ -335,7 +336,6 @@ class Session:
             self._finish(event)
 
     def _finish(self, event: Finished) -> None:
-        """Motion is done with a turn."""
         instruction = self._requests.take(event.turn)
         if instruction is None:
             return

@@ -38,17 +38,8 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return in_order(ended)
     if word.value == "reverse":
         return _swapped(head, tail)
-    if word.value == "preceding" and not leads and _is_told_again(head, tail):
-        return tail
-    end = next((i for i, a in enumerate(tail) if (a.kind, a.value) == ("flag", "finally")), None)
-    if word.value == "preceding" and end and not leads:  # `A, but before that B, and at the end C`
-        return [*tail[: end - 1], _THEN, *head, *tail[end - 1 :]]
     if word.value == "preceding":  # A 之前 B
-        last = next((i for i in range(at - 1, 0, -1) if (head[i].kind, head[i].value) == ("conn", "then")), 0)
-        kept = (
-            head[: last + 1] if word.text.endswith("that") and last else []
-        )  # `A, then B, and before that C`
-        return [*kept, *tail, _THEN, *head[len(kept) :]] if not leads else list(atoms)
+        return _preceded(word, head, tail) if not leads else list(atoms)
     if leads:
         comma = next((i for i, a in enumerate(tail) if a.kind == "sep" and a.value == "weak"), None)
         at = comma if comma is not None else _second_order(tail, word.text.endswith(" you"))
@@ -61,10 +52,24 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return [*second[:end], _THEN, *first, *second[end:]]
     if word.value == "after":
         end = _ends_at(tail, at_then=True)
-        thens = [i + 1 for i, a in enumerate(head) if (a.kind, a.value) == ("conn", "then")]
-        cut = thens[-1] if thens else 0  # `go 1 m, then turn left after waiting 3 s`
+        cut = _behind_last_then(head)  # `go 1 m, then turn left after waiting 3 s`
         return [*head[:cut], *tail[:end], _THEN, *head[cut:], *tail[end:]]
     return [*head, _THEN, *tail]
+
+
+def _preceded(word: Atom, head: list[Atom], tail: list[Atom]) -> list[Atom]:
+    """`A, but before that B`: B first; behind the `then` before A, where that is what is meant."""
+    if _is_told_again(head, tail):
+        return tail
+    end = next((i for i, a in enumerate(tail) if (a.kind, a.value) == ("flag", "finally")), None)
+    if end:  # `A, but before that B, and at the end C`
+        return [*tail[: end - 1], _THEN, *head, *tail[end - 1 :]]
+    cut = _behind_last_then(head) if word.text.endswith("that") else 0  # `A, then B, and before that C`
+    return [*head[:cut], *tail, _THEN, *head[cut:]]
+
+
+def _behind_last_then(atoms: Sequence[Atom]) -> int:
+    return max((i + 1 for i, a in enumerate(atoms) if (a.kind, a.value) == ("conn", "then")), default=0)
 
 
 def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
