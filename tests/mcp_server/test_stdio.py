@@ -193,7 +193,7 @@ def test_garbage_is_answered_output_is_the_protocol_alone_and_asked_to_end_it_st
     asked_s = time.monotonic()
     server.terminate()
     assert wire.velocities.seconds_to_zero(asked_s) < 1.0
-    rest, _ = server.communicate(timeout=PATIENCE_S)
-    json_lines(rest.decode())
-    assert server.returncode == 5
+    assert server.wait(PATIENCE_S) == 5
+    *_, last = json_lines(server.stdout.read().decode())
+    assert last["result"]["structuredContent"]["outcome"] == "stopped", "an agent is told how its call ended"
     wire.close()

@@ -136,13 +136,16 @@ async def _serve_http(
 
 
 async def _serve_stdio(server: MCPServer[Any], robot: AgentRobot, is_leaving: Callable[[], bool]) -> None:
-    from chatrobot.mcp_server.streams import LineStream, private_stdio, serve_lines
+    from chatrobot.mcp_server.streams import ANSWER_S, LineStream, private_stdio, serve_lines
 
     with private_stdio() as (read_fd, write_fd):
         lines = LineStream(read_fd, write_fd, lambda: robot.stop("the agent's client is gone"))
         serving = asyncio.create_task(serve_lines(server, lines))
         while not (serving.done() or is_leaving()):
             await asyncio.wait([serving], timeout=0.1)
+        if not serving.done():
+            robot.refuse(_PARTED)
+            await lines.answered(ANSWER_S)
         serving.cancel()
         await asyncio.gather(serving, return_exceptions=True)
 

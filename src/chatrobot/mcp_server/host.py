@@ -14,6 +14,7 @@ import socket
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from chatrobot.compose import Connection
 from chatrobot.core.events import Result
@@ -23,8 +24,12 @@ from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.runtime_dir import agent_socket_path
 
+if TYPE_CHECKING:
+    from chatrobot.mcp_server.streams import LineStream
+
 MOST_CLIENTS = 8
 END_S = 5.0
+_ENDED = "the web console has ended"
 
 
 class AgentHost:
@@ -41,6 +46,7 @@ class AgentHost:
         self._thread = threading.Thread(target=self._run, name="agents", daemon=True)
         self._loop: asyncio.AbstractEventLoop | None = None
         self._ended: asyncio.Event | None = None
+        self._clients: set[LineStream] = set()
         self.path: Path = agent_socket_path(os.getpid())
 
     def start(self) -> None:
@@ -60,12 +66,13 @@ class AgentHost:
     def close(self) -> None:
         """Serve nobody any more; stop the robot where an agent moves it."""
         self.path.unlink(missing_ok=True)
-        self._robot.close("the web console has ended")
+        self._robot.refuse(_ENDED)
         loop, ended = self._loop, self._ended
         if loop is not None and ended is not None:
             with contextlib.suppress(RuntimeError):  # it has ended by itself
                 loop.call_soon_threadsafe(ended.set)
             self._thread.join(END_S)
+        self._robot.close(_ENDED)
 
     def _run(self) -> None:
         wake_promptly()  # a call that is cancelled stops the robot
@@ -76,6 +83,9 @@ class AgentHost:
         clients: set[asyncio.Task[None]] = set()
         accepting = asyncio.create_task(self._accept(clients))
         await self._ended.wait()
+        from chatrobot.mcp_server.streams import ANSWER_S
+
+        await asyncio.gather(*(lines.answered(ANSWER_S) for lines in self._clients))
         for task in (accepting, *clients):
             task.cancel()
         await asyncio.gather(accepting, *clients, return_exceptions=True)
@@ -104,9 +114,12 @@ class AgentHost:
             tools = Tools(self._robot)
             server = build_server(self._robot, self._profile, is_simulated=self._is_simulated, tools=tools)
             number = connection.fileno()
+            lines = LineStream(number, number, lambda: None)
+            self._clients.add(lines)
             try:
-                await serve_lines(server, LineStream(number, number, lambda: None))
+                await serve_lines(server, lines)
             finally:
+                self._clients.discard(lines)
                 tools.leave()
                 with contextlib.suppress(OSError):
                     connection.shutdown(socket.SHUT_RDWR)  # ends the thread that reads

@@ -86,8 +86,7 @@ class ProgramTool:
     ) -> CallToolResult:
         course = await self._calls.do(say, report, line, rehearse_only=rehearse_only)
         course.is_program = True
-        session = (await self._robot.ready()).session
-        return course_told(course, session.understanding.language, self._robot.approval_address())
+        return course_told(course, self._robot.language, self._robot.approval_address())
 
 
 def is_source(text: str) -> bool:

@@ -22,6 +22,7 @@ Listener = Callable[[Event | None], None]
 """Hears events on the server's thread; None: look again, something else has changed."""
 
 _POLL_S = 0.02
+_ENDING = "This server is ending."
 
 
 class Turns:
@@ -67,7 +68,7 @@ class AgentRobot:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._listeners: list[Listener] = []
         self._failure: Exception | None = None
-        self._is_starting = self._is_closed = False
+        self._is_starting = self._is_refusing = self._is_closed = False
         self._changing = threading.Lock()
 
     # --- the server's thread ---
@@ -88,11 +89,13 @@ class AgentRobot:
             RobotGoneError: it cannot be met, or is gone.
         """
         self.start()
+        if self._is_refusing:
+            raise RobotGoneError(_ENDING)
         while self._connection is None:
             if self._failure is not None:
                 raise RobotGoneError(f"{self._failure} The next call tries again.") from self._failure
             if self._is_closed:
-                raise RobotGoneError("This server is ending.")
+                raise RobotGoneError(_ENDING)
             await asyncio.sleep(_POLL_S)
         if self._failure is not None:
             raise RobotGoneError(
@@ -117,6 +120,11 @@ class AgentRobot:
         return self._connection.session if self._connection is not None else None
 
     @property
+    def language(self) -> str:
+        """Return the language of what was last said."""
+        return self.session.understanding.language if self.session is not None else "en"
+
+    @property
     def is_emergency(self) -> bool:
         """An emergency stop is set, as far as is known here."""
         return self.record.emergency is not None or self._is_latched()
@@ -130,13 +138,18 @@ class AgentRobot:
             with contextlib.suppress(LinkError):  # Motion is gone: its guard halts
                 session.stop(why)
 
+    def refuse(self, why: str) -> None:
+        """Stop the robot, and take no call any more: what is under way can still tell how it ended."""
+        self._is_refusing = True
+        self.stop(why)
+
     def close(self, why: str = "the agent's client is gone") -> None:
         """Stop the robot and leave it. Closing twice does no harm."""
         with self._changing:
             if self._is_closed:
                 return
             self._is_closed = True
-        self.stop(why)
+        self.refuse(why)
         if self._pump is not None:
             self._pump.stop()
         if self._connection is not None:
@@ -163,8 +176,7 @@ class AgentRobot:
 
     def _hear(self, event: Event) -> None:
         """On the pumping thread."""
-        session = self.session
-        self.record.hear(event, session.understanding.language if session is not None else "en")
+        self.record.hear(event, self.language)
         if isinstance(event, (Started, Finished)):
             self.waiting_turn = None if event.turn == self.waiting_turn else self.waiting_turn
             self.paused_turn = None if event.turn == self.paused_turn else self.paused_turn

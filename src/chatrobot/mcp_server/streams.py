@@ -11,6 +11,7 @@ import contextlib
 import json
 import os
 import threading
+import time
 from collections.abc import AsyncIterator, Callable
 from typing import Any, cast
 
@@ -19,6 +20,9 @@ from mcp.server.stdio import stdio_server
 
 STDIN, STDOUT, STDERR = 0, 1, 2
 READ_BYTES = 65_536
+POLL_S = 0.01
+ANSWER_S = 1.0
+"""By then a call whose motion is stopped has told its agent so."""
 MOST_LINE_BYTES = 4_000_000
 """As much as the SDK takes in one HTTP request; a longer line is dropped."""
 
@@ -68,20 +72,44 @@ class LineStream:
         self._on_end = on_end
         self._loop = asyncio.get_running_loop()
         self._lines: asyncio.Queue[str | None] = asyncio.Queue(maxsize=64)
+        self._unanswered: set[int | str] = set()
+        """Ids of requests."""
         threading.Thread(target=self._read, name="mcp-client", daemon=True).start()
 
     async def __aiter__(self) -> AsyncIterator[str]:
         """Yield each line of JSON, until the client is gone; any other is answered at once."""
         while (line := await self._lines.get()) is not None:
-            if _is_json(line):
-                yield line
-            elif line.strip():
-                await self.write(_PARSE_ERROR)
+            try:
+                message = json.loads(line)
+            except (ValueError, RecursionError):
+                if line.strip():
+                    await self.write(_PARSE_ERROR)
+                continue
+            if isinstance(message, dict):
+                self._note(message)
+            yield line
+
+    def _note(self, message: dict[str, Any]) -> None:
+        """Keep the id of a request until it is answered; one that is cancelled is not."""
+        asked, params = message.get("id"), message.get("params")
+        if message.get("method") == "notifications/cancelled" and isinstance(params, dict):
+            self._unanswered = {one for one in self._unanswered if one != params.get("requestId")}
+        elif "method" in message and isinstance(asked, (int, str)):
+            self._unanswered.add(asked)
 
     async def write(self, text: str) -> None:
         """Write all of `text`; a client that is gone is noticed by who reads."""
         writing = asyncio.get_running_loop().run_in_executor(None, self._write, text.encode())
         await asyncio.shield(writing)
+        message = json.loads(text)
+        if "method" not in message:
+            self._unanswered.discard(message["id"])
+
+    async def answered(self, within_s: float) -> None:
+        """Wait until each request has its answer, but no longer than that: whoever ends a server lets it answer."""
+        ends_s = time.monotonic() + within_s
+        while self._unanswered and time.monotonic() < ends_s:
+            await asyncio.sleep(POLL_S)
 
     async def flush(self) -> None:
         """Nothing is held back."""
@@ -112,14 +140,6 @@ class LineStream:
             putting.close()
             raise
         handed_on.result()
-
-
-def _is_json(line: str) -> bool:
-    try:
-        json.loads(line)
-    except (ValueError, RecursionError):
-        return False
-    return True
 
 
 @contextlib.contextmanager

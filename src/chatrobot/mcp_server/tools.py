@@ -124,8 +124,7 @@ class Tools:
     ) -> CallToolResult:
         course = await self._calls.do(say, report, line, text=text, rehearse_only=rehearse_only)
         course.is_plan = not text
-        session = (await self._robot.ready()).session
-        return course_told(course, session.understanding.language, self._robot.approval_address())
+        return course_told(course, self._robot.language, self._robot.approval_address())
 
     async def _see_stand(self, since_s: float) -> CallToolResult:
         record = self._robot.record
