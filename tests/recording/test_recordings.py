@@ -219,10 +219,16 @@ def test_files_are_the_owners_alone_and_the_oldest_go_first(tmp_path: Path) -> N
     for number in range(4):
         (folder / f"{number}.mcap").write_bytes(b"x" * 100_000)
         os.utime(folder / f"{number}.mcap", (time.time() - 50 + number,) * 2)
+    for name, age_s in (("begun", 1.0), ("abandoned", 100.0)):
+        (folder / f"{name}.mcap").touch()
+        os.utime(folder / f"{name}.mcap", (time.time() - age_s,) * 2)
     tidy(folder, most_bytes=250_000)
     recorder.close()
     assert stat.S_IMODE(recorder.path.stat().st_mode) == 0o600
-    assert {path.name for path in folder.glob("*.mcap")} == {"2.mcap", "3.mcap", recorder.path.name}
+    assert {path.name for path in folder.glob("*.mcap")} == {
+        *("2.mcap", "3.mcap", "begun.mcap"),
+        recorder.path.name,
+    }, "an empty file may be one that another process has just begun"
 
 
 def test_what_comes_too_fast_is_counted_and_told(tmp_path: Path) -> None:

@@ -141,7 +141,9 @@ class Recorder:
         self._limit_bytes = limit_bytes
         self._began_ns = time.time_ns() - int(self._clock.now_s() * 1e9)
         self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
-        fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)  # whoever tidies up leaves it alone
+        fcntl.flock(
+            self._descriptor, fcntl.LOCK_EX
+        )  # whoever tidies up leaves it alone, and looks for a moment
         self._queue: deque[tuple[Topic, Message | Event, int]] = deque()
         self._notices: deque[Notice] = deque()
         self._wire: Wire | None = None

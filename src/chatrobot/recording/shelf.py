@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import time
 from pathlib import Path
 
@@ -13,6 +12,8 @@ from chatrobot.recording.repair import held, repair_elsewhere
 FOLDER, SUFFIX = "recordings", ".mcap"
 MOST_BYTES, KEPT_S = 500_000_000, 30 * 86_400
 """What all recordings of a folder take at most, and how long one is kept: the oldest go first."""
+BARE_S = 60.0
+"""A file that is still empty by then has lost its writer. Before, its writer may not hold it yet."""
 
 
 def make_folder(data_folder: Path) -> Path:
@@ -60,7 +61,8 @@ def tidy(folder: Path, *, most_bytes: float = MOST_BYTES, kept_s: float = KEPT_S
     """
     for path in sorted(folder.glob(f"*{SUFFIX}")):
         with contextlib.suppress(ChatRobotError, OSError):
-            _delete_if(path, path.stat().st_mtime < time.time() - kept_s or _is_bare(path))
+            age_s = time.time() - path.stat().st_mtime
+            _delete_if(path, age_s > kept_s or (age_s > BARE_S and not path.stat().st_size))
         with contextlib.suppress(ChatRobotError, OSError):
             repair_elsewhere(path)
     make_room(folder, most_bytes)
@@ -79,11 +81,6 @@ def make_room(folder: Path, most_bytes: float = MOST_BYTES) -> None:
             return
         with contextlib.suppress(OSError):
             total -= size if _delete_if(path, True) else 0
-
-
-def _is_bare(path: Path) -> bool:
-    """Nothing was written before its writer died."""
-    return os.path.getsize(path) == 0
 
 
 def _delete_if(path: Path, is_due: bool) -> bool:
