@@ -250,6 +250,53 @@ from tests.language.test_usual import done
             ),
             'go to 0 0 named "desk"',
         ),
+        (
+            ("Three things. Forward a metre, slide right half a metre, forward another metre.",),
+            "drive 1 m; drive 0.5 m right; drive 1 m",
+        ),
+        (("Right, that's done. go back 1 m",), "drive 1 m back"),
+        (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
+        (("turn right 90", "now drive 2 yards that way"), "drive 1.8288 m"),
+        (
+            ("Make us a triangle with 1 meter sides, I don't care which way around you go.",),
+            "drive 1 m; turn left 120 deg; drive 1 m; turn left 120 deg; drive 1 m; turn left 120 deg",
+        ),
+        (
+            ("go forward 1 m and turn right", "Do that whole thing, the metre and the turn, once more"),
+            "drive 1 m; turn right 90 deg",
+        ),
+        (
+            ("circle to the left radius 1 m", "Now mirror it, the same size circle but to your right"),
+            "arc right 360 deg radius 1 m",
+        ),
+        (("go to the point x equals 2, y equals minus 1, in meters",), 'go to 2 -1 named "(2, -1)"'),
+        (("fahr zu x gleich 2 und y gleich 1,5",), 'go to 2 1.5 named "(2, 1.5)"'),
+        (("去X等于2 Y等于负1那个点",), 'go to 2 -1 named "(2, -1)"'),
+        (
+            ("go to x 3 y 1 and finish up looking at 90 degrees",),
+            'go to 3 1 facing 90 deg named "(3, 1, 90)"',
+        ),
+        (("drive up another 5 feet so Dolores can see you",), "drive 1.524 m"),
+        (("Go diagonally front right, 1.4 m. Don't turn, just slide it.",), "drive 1.4 m toward -45 deg"),
+        (
+            ("turn right, no wait, I mean left: so turn 90 left and then 1.5 m ahead",),
+            "turn left 90 deg; drive 1.5 m",
+        ),
+        (
+            (
+                "zigzag, 1 m diagonally forward left and then 1 m diagonally forward right, all of it twice, no turn",
+            ),
+            "drive 1 m toward 45 deg; drive 1 m toward -45 deg; drive 1 m toward 45 deg; drive 1 m toward -45 deg",
+        ),
+        (
+            ("先往左前方走一米再往右前方走一米这样搞两遍",),
+            "drive 1 m toward 45 deg; drive 1 m toward -45 deg; drive 1 m toward 45 deg; drive 1 m toward -45 deg",
+        ),
+        (("车头莫动往右边横移八十公分",), "drive 0.8 m right"),
+        (("园地右转四十五度在往前走1米2",), "turn right 45 deg; drive 1.2 m"),
+        (("往前走两米", "算了回到你最开始出发那个地方去"), "go to 0 0"),
+        (("So, erstma anderthalb Meter geradeaus.", "Und dat Ganze nomma."), "drive 1.5 m"),
+        (("Auffer Stelle 135 Grad nach rechts drehn.",), "turn right 135 deg"),
     ],
 )
 def test_the_last_turn_is_done(turns: tuple[str, ...], plan: str) -> None:

@@ -7,6 +7,11 @@ import pytest
 from tests.language.dialogue_runner import conversation
 
 ALONE = [
+    ("HEADS! Nobody move, bar's coming in.",),
+    ("a toddler got loose and he's running right at you, maybe six feet away on your left!",),
+    ("there's a dog coming at you, two metres to your right!",),
+    ("Ich hab mit keinem Wort gesacht, dat du 'n Meter zurücksetzen sollst.",),
+    ("hop along 20 cm that way",),
     ("2 m up then 1 m down",),
     ("a square and a triangle, both with sides of 1 m",),
     ("advance 1 m, pause, advance 1 m, pause, each pause three seconds long",),

@@ -43,7 +43,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     Raises:
         Unclear: where there is nothing to refer to.
     """
-    if _goes_on_the_same_way(frames):
+    if _goes_on_the_same_way(frames, context.dialogue):
         return None
     check_answers_nothing(frames, context.dialogue)
     if context.dialogue.last_motion is not None:
@@ -286,11 +286,21 @@ def _further_round(whole: Frame, context: Context) -> list[Step] | None:
     return [replace(step, angle_rad=angle.number)]
 
 
-def _goes_on_the_same_way(frames: Sequence[Frame]) -> bool:
-    """`another 45 the same way`: on, not back; the flag has then done its work."""
+def _goes_on_the_same_way(frames: Sequence[Frame], dialogue: Dialogue) -> bool:
+    """`another 45 the same way`: on, not back; the flag has then done its work.
+
+    Raises:
+        Unclear: where nothing has moved.
+    """
     on = [frame for frame in frames if _goes_on(frame)]
+    last = dialogue.last_motion
+    if on and on[0] is frames[0] and last is None:
+        raise Unclear("nothing_before", on[0].text)
+    step = last.plan.steps[-1] if last is not None and last.plan is not None and last.plan.steps else None
     for frame in on:
         frame.flags.discard("same_way")
+        if frame is frames[0] and isinstance(step, Drive) and not frame.rot:
+            frame.flags.add("more")  # `2 m that way`, after it went back
     return bool(on)
 
 

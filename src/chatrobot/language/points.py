@@ -12,13 +12,6 @@ from chatrobot.language.context import Context, Place
 from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
 
 _NUMBER = r"([-+−]?\d*\.?\d+) ?m?"
-_NAMED = r"((?:[-+−] ?|minus )?\d*[.,]?\d+)(?: ?m(?:et(?:er|re)s?)?\b)?"
-_POINT = re.compile(
-    rf"[(（] ?{_NUMBER} ?[,，] ?{_NUMBER} ?[)）]"
-    rf"|(?<![a-z])x ?= ?{_NAMED}[ ,，]+(?:[a-z]{{1,3}} )?y ?= ?{_NAMED}(?![\d.])"
-    rf"|(?<![a-z\d])x {_NAMED}[ ,，]+(?:[a-z]{{1,3}} )?y {_NAMED}(?![\d.])",
-    re.IGNORECASE,
-)
 _WRITTEN = re.compile(rf"\({_NUMBER}, {_NUMBER}(?:, {_NUMBER})?\)")
 _AT_ORIGIN_M, _AT_ORIGIN_RAD = 0.05, math.radians(3.0)
 _LETTERS = str.maketrans("0123456789.-+,e", "abcdefghijkmpqu", "() ")
@@ -27,12 +20,17 @@ _TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class _Words:
-    """How a language leads to a point, goes on behind it, says the heading that a place has, and tells the frame."""
+    """How a language leads to a point, goes on behind it, says the heading that a place has, and tells the frame.
+
+    `equals` and `minus` are words for those signs.
+    """
 
     lead: re.Pattern[str]
     heading: re.Pattern[str]
     its_heading: str
     axes: re.Pattern[str]
+    equals: str
+    minus: str
 
 
 def with_points(text: str, context: Context) -> tuple[str, Context]:
@@ -41,13 +39,13 @@ def with_points(text: str, context: Context) -> tuple[str, Context]:
     That x points ahead and y to the left is the frame that is meant anyway (REP 103), as long as the robot stands
     where that began; any other is not read.
     """
-    if _TWIST.search(text) or not _POINT.search(text):
+    if _TWIST.search(text) or not _point().search(text):
         return text, context
     for words in _words() if _is_at_origin(context.state.pose) else ():
         text = words.axes.sub(lambda told: "" if told.end() == len(told.string) else told["mark"], text)
     places: dict[str, Place] = {}
     out, at = "", 0
-    for found in _POINT.finditer(text):
+    for found in _point().finditer(text):
         x_m, y_m = (_number(number) for number in found.groups() if number is not None)
         lead, (heading_deg, end, its_heading) = _lead(text[at : found.start()]), _heading(text, found.end())
         name = f"({x_m:g}, {y_m:g}, {heading_deg:g})" if its_heading else f"({x_m:g}, {y_m:g})"
@@ -75,7 +73,9 @@ def word_of(name: str) -> str:
 
 
 def _number(written: str) -> float:
-    return float(written.replace("minus", "-").replace("−", "-").replace(" ", "").replace(",", "."))
+    for sign in ("−", *(words.minus for words in _words())):
+        written = written.replace(sign, "-")
+    return float(written.replace(" ", "").replace(",", "."))
 
 
 def _lead(text: str) -> str:
@@ -103,6 +103,22 @@ def _words() -> tuple[_Words, ...]:
             re.compile(table["heading"], re.IGNORECASE),
             table["its_heading"],
             re.compile(table["axes"], re.IGNORECASE),
+            table["equals"],
+            table["minus"],
         )
         for table in tables
+    )
+
+
+@lru_cache(maxsize=1)
+def _point() -> re.Pattern[str]:
+    """Both coordinates of a point: in brackets, or each behind its letter."""
+    equals, minus = ("|".join(getattr(words, name) for words in _words()) for name in ("equals", "minus"))
+    named = rf"((?:[-+−] ?|(?:{minus}) ?)?\d*[.,]?\d+)(?: ?m(?:et(?:er|re)s?)?\b)?"
+    between = r"[ ,，]*(?:(?<=[ ,，])[a-z]{1,3} )?"
+    return re.compile(
+        rf"[(（] ?{_NUMBER} ?[,，] ?{_NUMBER} ?[)）]"
+        rf"|(?<![a-z])x ?(?:=|{equals}) ?{named}{between}y ?(?:=|{equals}) ?{named}(?![\d.])"
+        rf"|(?<![a-z\d])x {named}[ ,，]+(?:[a-z]{{1,3}} )?y {named}(?![\d.])",
+        re.IGNORECASE,
     )
