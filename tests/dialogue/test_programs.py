@@ -153,7 +153,7 @@ def test_an_answer_without_a_program_is_told(house: House) -> None:
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("square dance", "do the square dance again"), ("square dance", "run the square dance"),
+    [("square dance", "do the square dance again"), ("evil", "do evil again"), ("square dance", "run the square dance"),
      ("方块舞", "再跳一次方块舞"), ("方块舞", "运行方块舞")],
 )  # fmt: skip
 def test_a_kept_program_runs_again_by_its_name(house: House, name: str, said: str) -> None:

@@ -29,6 +29,8 @@ _QUOTES = str.maketrans(
         "→": ";",
         "➡": ";",
         "⇒": ";",
+        "ß": "ss",
+        "ẞ": "ss",
     }
 )
 _CIRCLED = re.compile(r"[①-⑳❶-❿⑴-⒇]")
@@ -37,6 +39,8 @@ _RAISED = re.compile(r"(?<=\d)(?=[⁰¹²³⁴-⁹])")
 _ELLIPSIS = re.compile(r"\.{2,}|…+")
 _HAN = re.compile(r"[\u3400-\u9fff]")
 _REDOUBLED = re.compile(r"([^\W\d一二两三四五六七八九十百千半a-z])一\1")  # 挪一挪
+_UNSEEN = "\x7f"
+"""Nobody sees it, nor what is of the category Cf: with one of them between its digits 15 cm is still 15 cm."""
 _SPACES = re.compile(r"[ \t\u3000]+")
 
 
@@ -61,7 +65,7 @@ def normalise(text: str) -> str:
     text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
     text = _retroflex().sub("", _REDOUBLED.sub(r"\1", text))
     text = _GROUPED.sub(lambda found: f"{found[1].replace('.', '')}.{found[2]}", text)  # 1.000,5
-    kept = [c if _kept(c) else " " for c in text]
+    kept = [c if _kept(c) else "" if c in _UNSEEN or unicodedata.category(c) == "Cf" else " " for c in text]
     return _SPACES.sub(" ", "".join(kept)).strip()
 
 

@@ -81,7 +81,7 @@ class Clause:
     def binds(self) -> bool:
         """Whether it bears on what stands beside it: a condition, a negation, a correction, the next motion."""
         said = any(sign.label in BINDING or sign.label in _QUOTES for sign in self.signs)
-        return said or self.end == "?" or self._orders_next
+        return said or self.end == "?" or self._orders_next or self._names_deed
 
     @property
     def order_start(self) -> int:
@@ -158,6 +158,12 @@ class Clause:
     def _orders_next(self) -> bool:
         """`then spin round …`: whether it begins with another motion, whatever is told behind it."""
         return self.begins_next and any(sign.label == "VERB" and sign.moves for sign in self.signs[1:2])
+
+    @property
+    def _names_deed(self) -> bool:
+        """`then open the door`, `then say hello`: whether it begins with what is to be done next, and is no motion."""
+        rest = [sign for sign in self.signs if sign.label not in _OPENING]
+        return self.begins_next and bool(rest) and rest[0].label in (rest[0].text, "report")
 
     @property
     def _opens_as(self) -> Meaning:
