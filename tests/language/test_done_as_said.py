@@ -256,6 +256,7 @@ from tests.language.test_usual import done
         ),
         (("Right, that's done. go back 1 m",), "drive 1 m back"),
         (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
+        (("Turn right 45 degrees.", "Hm. Bit over. Take 10 off."), "turn left 10 deg"),
         (("turn right 90", "now drive 2 yards that way"), "drive 1.8288 m"),
         (
             ("Make us a triangle with 1 meter sides, I don't care which way around you go.",),
