@@ -17,6 +17,8 @@ class FakeSession:
         self.is_moving = False
         self.is_paused = self.is_plan_paused = False
         self.is_lost = False
+        self.stops = 0
+        self.authoring = None
 
     def _note(self, *what):
         if self.is_lost:
@@ -27,6 +29,9 @@ class FakeSession:
     def say(self, text):
         return self._note("say", text)
 
+    def say_program(self, text):
+        return self._note("say_program", text)
+
     def say_plan(self, plan_text):
         return self._note("say_plan", plan_text)
 
@@ -34,6 +39,7 @@ class FakeSession:
         return self._note("say_edited_plan", plan_text)
 
     def stop(self, why=""):
+        self.stops += 1
         self._note("stop", why)
 
     def emergency_stop(self, why=""):
@@ -71,6 +77,12 @@ class FakeDisplay:
 
     def leave(self, code):
         self.log.append(("leave", code))
+
+
+def do_posted(controller):
+    """What the pumping thread would do."""
+    while not controller.pump._jobs.empty():
+        controller.pump._jobs.get()()
 
 
 def told(log):

@@ -1,5 +1,6 @@
 """What a typed line and a key do, without a terminal and without a robot."""
 
+import os
 import threading
 from types import SimpleNamespace
 
@@ -11,7 +12,7 @@ from chatrobot.cli.console.pasted import LONGEST_CHARS
 from chatrobot.core.events import Finished, Interpreted, Notice, Result, Started
 from chatrobot.core.geometry import ZERO_TWIST, Pose, Twist
 from chatrobot.core.reason import Reason
-from tests.console.fakes import ask, shown, told
+from tests.console.fakes import ask, do_posted, shown, told
 
 
 def test_a_stop_is_out_before_anything_is_drawn(controller, log):
@@ -274,6 +275,34 @@ def test_a_saved_plan_is_told_to_the_session_and_a_broken_one_is_not(controller,
     assert "The plan was not run: " in shown(log)
     assert "bad: line 2: 'fly 2 m': no step begins like this (one of: arc, drive, " in shown(log)
     assert "none: No such file or directory" in shown(log)
+
+
+@pytest.mark.parametrize("command", ["/run-plan f", "/undo", "/program that turns twice"])
+def test_a_command_that_a_stop_overtakes_moves_nothing(controller, log, command):
+    controller.enter(command)
+    controller.interrupt()
+    do_posted(controller)
+    assert told(log) == [("stop", "Ctrl-C")]
+    assert f"A stop came before “{command}” was done, so it was dropped." in shown(log)
+
+
+def test_a_stop_while_a_plan_is_read_makes_it_void(controller, log, monkeypatch):
+    def read(*_, **__):
+        controller.interrupt()
+        return "drive 1 m\n"
+
+    monkeypatch.setattr(commands, "read_plan_file", read)
+    controller.enter("/run-plan far/away")
+    do_posted(controller)
+    assert ("say_plan", "drive 1 m\n") not in log
+    assert "A stop came before “/run-plan far/away” was done" in shown(log)
+
+
+def test_a_plan_is_not_read_from_what_others_still_write(controller, log, tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    commands.BY_NAME["run-plan"].act(controller, str(tmp_path / "pipe"))
+    assert told(log) == []
+    assert "pipe: not a file" in shown(log)
 
 
 def test_a_map_of_a_size_that_there_is_not_says_which_there_are(controller, log):

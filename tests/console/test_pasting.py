@@ -4,7 +4,7 @@ import pytest
 
 from chatrobot.cli.console.pasted import LONGEST_CHARS, MOST_TEXTS
 from chatrobot.core.events import Result
-from tests.console.fakes import ask, shown, told
+from tests.console.fakes import ask, do_posted, shown, told
 
 
 def end_turn(controller, turn, outcome="completed"):
@@ -89,6 +89,34 @@ def test_commands_among_pasted_lines_are_done_in_their_order(controller, log):
     assert told(log)[1:] == [("say", "turn left")]
     end_turn(controller, said_turn(log))
     assert told(log)[2:] == [("say", "undo")]
+
+
+@pytest.mark.parametrize("command", ["/run-plan {}", "/program that turns twice"])
+def test_what_is_behind_a_command_that_moves_waits_for_its_turn(controller, log, tmp_path, command):
+    (tmp_path / "mine").write_text("drive 1 m\n")
+    controller.enter(f"{command.format(tmp_path / 'mine')}\nturn left\nforward 1 m")
+    do_posted(controller)
+    ((word, _),) = told(log)
+    turn = next(number for number, entry in enumerate(log, 1) if entry[0] == word)
+    assert word in ("say_plan", "say_program")
+    end_turn(controller, turn)
+    assert said(log)[-1] == "turn left"
+    assert "not done" not in shown(log)
+    end_turn(controller, said_turn(log), "failed")
+    assert "this is not done: “forward 1 m”" in shown(log)
+
+
+def test_what_is_behind_a_plan_that_cannot_be_read_is_not_done_and_that_is_said(controller, log):
+    controller.enter("/run-plan /none\nturn left")
+    do_posted(controller)
+    assert told(log) == []
+    assert "/none: No such file" in shown(log)
+    assert "this is not done: “turn left”" in shown(log)
+
+
+def test_a_list_of_programs_among_pasted_lines_takes_no_turn(controller, log):
+    controller.enter("/program\nturn left")
+    assert said(log) == ["turn left"]
 
 
 def test_quit_waits_for_what_was_pasted_before_it(controller, log):

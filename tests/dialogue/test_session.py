@@ -8,7 +8,9 @@ import pytest
 from tests.dialogue.talk import Talk, said_while_moving
 
 from chatrobot.core.events import Interpreted, TruePose
+from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import QUEUE_LIMIT
+from chatrobot.link.in_process import InProcessLink
 
 
 def test_two_instructions_in_a_row_are_both_done_in_order() -> None:
@@ -37,6 +39,20 @@ def test_a_stop_word_stops_what_moves_and_drops_what_waits(word: str) -> None:
     assert [talk.results()[turn].outcome for turn in (1, 2, 3)] == ["stopped", "stopped", "stopped"]
     assert talk.results()[1].path_m < 1.0
     assert [e.by for e in talk.events if isinstance(e, Interpreted) and e.turn == 3] == ["reflex"]
+
+
+@pytest.mark.parametrize("source", ["chatrobot stop", "chatrobot/stop"])
+def test_a_stop_that_nobody_says_here_drops_what_waits_as_one_that_is_said(source: str) -> None:
+    talk = Talk()
+    for text in ("forward 5 m", "forward 1 m"):
+        talk.session.say(text)
+    talk.pump_until_moving()
+    assert isinstance(talk.session._link, InProcessLink)
+    talk.session._link._motion.halt(Reason("stopped_by", {"source": source, "why": ""}))
+    talk.pump_until(lambda: len(talk.results()) == 2)
+    assert [result.outcome for result in talk.results().values()] == ["stopped", "stopped"]
+    assert talk.results()[2].reply == "“forward 1 m” was waiting, and the stop dropped it."
+    assert talk.do("forward 10 cm").outcome == "completed"
 
 
 @pytest.mark.parametrize(

@@ -65,8 +65,10 @@ MOST_BYTES = 65_536
 """A longer file was most likely meant for something else; a plan is over after half an hour at the latest."""
 
 
-def read_plan_file(name: str, *, or_stdin: bool = False) -> str:
+def read_plan_file(name: str, *, or_stdin: bool = False, takes_pipe: bool = True) -> str:
     """Return the text of the plan in that file, which may have it as JSON. `or_stdin`: - is standard input.
+
+    `takes_pipe`: so is what others still write; without it nothing is waited for.
 
     Raises:
         UsageError: there is no such file, or a line of it cannot be read; which, and what is allowed there.
@@ -77,6 +79,8 @@ def read_plan_file(name: str, *, or_stdin: bool = False) -> str:
             path = "standard input"
             content = sys.stdin.buffer.read(MOST_BYTES + 1)
         else:
+            if not takes_pipe and Path(path).exists() and not Path(path).is_file():
+                raise UsageError("not a file", where=str(path), allowed="a file that holds a plan")
             with Path(path).open("rb") as file:
                 content = file.read(MOST_BYTES + 1)
         text = content.decode("utf-8-sig")

@@ -70,6 +70,8 @@ class Session:
         self._utterances = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn, self.approve)
         self._requests = RequestLog(understanding, self._emit)
+        self.results = self._requests.results
+        """How each turn ended, by its number."""
         self._llm = ModelRequests(
             model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
             lambda: self._utterances.pauses,
@@ -99,11 +101,6 @@ class Session:
     @options.setter
     def options(self, options: Options) -> None:
         self._goals.options = options
-
-    @property
-    def results(self) -> dict[int, Result]:
-        """Return how each turn ended, by its number."""
-        return self._requests.results
 
     def say(self, text: str) -> int:
         """Take in what a person said; the number of its turn. A stop is out before this returns."""
@@ -167,14 +164,15 @@ class Session:
         self._link.send("emergency_stop", self._utterances.void(why), why=why)
         self._llm.cancel(self._utterances.stopped_by)
 
-    def steer(self, twist: Twist) -> None:
-        """Drive by a stick that a person holds: say it anew 20 times a second while it is held, and once zero.
+    @property
+    def stops(self) -> int:
+        """Return a number that changes with every stop and pause: what was asked for before it counts no more."""
+        return self._utterances.stops
 
-        It takes command from whatever drives. Nothing else keeps it: a moment without lets go.
-        """
+    def steer(self, twist: Twist) -> None:
+        """Drive by a stick that a person holds: said anew 20 times a second, once zero; a moment without lets go."""
         self._steered_at_s = time.monotonic() if not twist.is_zero else -math.inf
-        vx_mps, vy_mps, wz_radps = twist
-        self._link.send("steer", vx_mps=vx_mps, vy_mps=vy_mps, wz_radps=wz_radps)
+        self._link.send("steer", **twist._asdict())
 
     def release(self) -> None:
         """Release an emergency stop. For the local console alone."""
@@ -329,6 +327,8 @@ class Session:
             self._resuming.hear(event)
             if was_paused and not self.is_plan_paused:
                 self._utterances.drop_held(self._resuming.ended_by)
+        if self._utterances.hear(event):
+            self._llm.cancel(self._utterances.stopped_by)
         if self._programs is not None and self._programs.hear(event):
             return  # the next version of a program is on its way
         self._llm.hear(event)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
+from chatrobot.core.events import Event, Finished
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
@@ -24,7 +25,7 @@ from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.program_request import read_request
-from chatrobot.link.envelope import QUEUE_LIMIT
+from chatrobot.link.envelope import QUEUE_LIMIT, STOP_COMMAND, STOP_TOPIC
 from chatrobot.plan.steps import Remember, Step
 
 Kind = Literal[
@@ -33,6 +34,7 @@ Kind = Literal[
 ]  # fmt: skip
 INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
+_OUTSIDE_STOPS = (STOP_COMMAND, STOP_TOPIC)
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,8 @@ class UtteranceQueue:
         self.stopped_by = Reason("cause_unknown")
         """The last stop."""
         self._dropped_by = Reason("cause_unknown")
+        self.stops = 0
+        """Changes with every stop and pause: what was asked for before it does not count any more."""
         self._gone_on_turn = 0
         self._last_turn = math.inf
 
@@ -85,11 +89,24 @@ class UtteranceQueue:
             self._texts.append(Utterance(self._turns, text, kind, time.monotonic(), about))
             return self._turns
 
-    def void(self, why: str) -> int:
-        """Make void what was said up to now; return its last turn. No lock: a stop waits for nothing."""
-        self.stopped_by = Reason("stopped_by", {"why": why})
+    def void(self, why: str, source: str = "") -> int:
+        """Make void what was said up to now; return its last turn. No lock: a stop waits for nothing.
+
+        Args:
+            source: who stopped, where it was not said here.
+        """
+        self.stopped_by = Reason("stopped_by", {"why": why} | ({"source": source} if source else {}))
+        self.stops += 1
         self._void_turn = self._turns
         return self._void_turn
+
+    def hear(self, event: Event) -> bool:
+        """Take an event in; tell whether it was a stop from outside this conversation, which voids as one in it."""
+        why = event.reason if isinstance(event, Finished) else None
+        if why is None or why.code != "stopped_by" or why.values.get("source") not in _OUTSIDE_STOPS:
+            return False
+        self.void(str(why.values.get("why", "")), str(why.values["source"]))
+        return True
 
     def end_after(self, turn: int | None = None) -> None:
         """Have nothing done of what is said after that turn, or from now on: the person has said goodbye."""
@@ -101,6 +118,7 @@ class UtteranceQueue:
         Args:
             is_under_way: something is driven or thought about, which is what is paused.
         """
+        self.stops += 1
         self._hold = _Hold(self._hold.number + 1, self._turns, not is_under_way)
 
     @property

@@ -51,6 +51,8 @@ part without `more` is the last and may be empty. What is to be approved, or onl
 how many pauses its source had said before it; where Motion has heard more of them, one has overtaken it."""
 
 
+STOP_COMMAND, STOP_TOPIC = "chatrobot stop", "chatrobot/stop"
+"""The sources of stops that nobody says to a conversation."""
 QUEUE_LIMIT = 10
 """What may wait while the robot moves, on either side; one more is refused rather than done in an hour."""
 

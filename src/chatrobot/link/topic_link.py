@@ -28,7 +28,7 @@ from chatrobot.core.events import (
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.core.reason import Reason
-from chatrobot.link.envelope import PROTOCOL, Envelope, Word, other_protocol, protocol_of
+from chatrobot.link.envelope import PROTOCOL, STOP_TOPIC, Envelope, Word, other_protocol, protocol_of
 from chatrobot.link.motion_link import EventQueue, MotionLink, Sender
 from chatrobot.robots.profile import OPEN_LOOP
 from chatrobot.wire.messages import Text
@@ -49,7 +49,7 @@ TELEMETRY = "chatrobot/telemetry"
 REPLY = "chatrobot/reply"
 """Sentences for people."""
 
-STOP = "chatrobot/stop"
+STOP = STOP_TOPIC
 """std_msgs/Bool: true stops."""
 
 CONTROL = "chatrobot/control"

@@ -21,7 +21,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.core.wiring import Wiring
 from chatrobot.governor.lease import RELEASERS
 from chatrobot.guard.watch import Departure
-from chatrobot.link.envelope import Envelope
+from chatrobot.link.envelope import STOP_COMMAND, Envelope
 from chatrobot.link.topic_link import STOP, USER_INPUT
 from chatrobot.motion.budgets import open_loop_notice
 from chatrobot.motion.control_loop import ControlLoop
@@ -270,7 +270,7 @@ class MotionRunner:
     def stop(self) -> str:
         """Stop; what was found, for `chatrobot stop` to say: `moving`, `waiting`, `standing` or `unseen`."""
         has_work = self.motion.has_work  # looked up, not asked for: nothing holds the zero up
-        self.halt("chatrobot stop", "")
+        self.halt(STOP_COMMAND, "")
         sight = self.motion.stop_confirmation.sight
         return "waiting" if sight == "standing" and has_work else sight
 

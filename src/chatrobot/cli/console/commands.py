@@ -26,7 +26,7 @@ class Command:
     """`at_once` ones run where the line was typed; the others where the session is pumped, as they read it.
 
     One that takes nothing does nothing where more was typed: that meant something else. Only a stop is a stop all
-    the same (`heeds_the_rest` is False).
+    the same (`heeds_the_rest` is False). A stop makes void what `is_order` and has not been done yet.
     """
 
     name: str
@@ -34,6 +34,7 @@ class Command:
     takes: str = ""
     at_once: bool = False
     heeds_the_rest: bool = True
+    is_order: bool = False
 
     @property
     def typed(self) -> str:
@@ -58,7 +59,19 @@ def run(controller: ChatController, line: str) -> None:
     elif command.at_once:
         command.act(controller, argument.strip())
     else:
-        controller.pump.post(lambda: command.act(controller, argument.strip()))
+        stops = controller.session.stops
+        controller.pump.post(lambda: _act(controller, command, argument.strip(), stops))
+
+
+def _act(controller: ChatController, command: Command, argument: str, stops: int) -> None:
+    session = controller.session
+    if command.is_order and session.stops != stops:
+        controller.tell("command_dropped", command=f"/{command.name} {argument}".strip())
+    else:
+        command.act(controller, argument)
+        if command.is_order and session.stops != stops:  # one came in between: nothing has been taken up yet
+            controller.attempt(session.stop)
+    controller.drop_behind_command()
 
 
 def nearest(word: str, known: Iterable[str] = ()) -> str:
@@ -123,10 +136,16 @@ def _run_plan(controller: ChatController, argument: str) -> None:
     if not argument:
         controller.tell("run_which")
         return
+    stops = controller.session.stops
     try:
-        controller.say_plan(read_plan_file(argument))
+        plan_text = read_plan_file(argument, takes_pipe=False)
     except UsageError as error:
         controller.tell("run_failed", problem=error)
+        return
+    if controller.session.stops == stops:
+        controller.say_plan(plan_text)
+    else:  # it came while the file was read, which may take long on a disk that is far away
+        controller.tell("command_dropped", command=f"/run-plan {argument}")
 
 
 def _program(controller: ChatController, argument: str) -> None:
@@ -136,7 +155,7 @@ def _program(controller: ChatController, argument: str) -> None:
         controller.tell("program_is_kept", name=argument)
         return
     if argument and argument.casefold() != "list":  # as `chatrobot program list`
-        controller.attempt(lambda: controller.session.say_program(argument))
+        controller.say_program(argument)
         return
     controller.tell("programs_kept", names=", ".join(names)) if names else controller.tell("no_programs_kept")
 
@@ -213,9 +232,11 @@ COMMANDS = (
     Command("plan", _plan),
     Command("why", _why),
     Command("save-plan", _save_plan, takes="FILE"),
-    Command("run-plan", _run_plan, takes="FILE"),
-    Command("program", _program, takes="[TEXT]"),
-    Command("undo", lambda it, _: it.attempt(lambda: it.session.say(it.words.say("undo_words")))),
+    Command("run-plan", _run_plan, takes="FILE", is_order=True),
+    Command("program", _program, takes="[TEXT]", is_order=True),
+    Command(
+        "undo", lambda it, _: it.attempt(lambda: it.session.say(it.words.say("undo_words"))), is_order=True
+    ),
     Command("map", _map, takes="[big]"),
     Command("limit", _limit, takes="[200 m] [20 min] [none]"),
     Command("obstacle", _obstacle, takes="[add NAME X Y | remove NAME]"),

@@ -26,6 +26,7 @@ from chatrobot.cli.console.pasted import (
     is_plan,
     must_be_typed,
     quoted,
+    takes_turn,
 )
 from chatrobot.cli.console.status_bar import StatusBar
 from chatrobot.cli.console.tables import way_map
@@ -132,7 +133,7 @@ class ChatController:
         self._say_next()
 
     def _say_next(self) -> None:
-        """Say the next of what was pasted. A command takes no turn: what is behind it follows at once."""
+        """Say the next of what was pasted. What is behind a command that takes no turn follows at once."""
         with self._order:
             text = self._pasted.next()
             while text is not None and text.startswith("/") and text != "/undo":
@@ -140,6 +141,10 @@ class ChatController:
                 undone = self._pasted.drop() if typed_alone or ends_a_paste(text) else ()
                 self._echo(text, anew=True)
                 self._tell_undone(undone)
+                if not typed_alone and takes_turn(text):
+                    self._pasted.follow_command()
+                    self._run_command(self, text)
+                    return
                 self.tell(f"{typed_alone}_alone") if typed_alone else self._run_command(self, text)
                 text = self._pasted.next()
             if text is not None:
@@ -162,10 +167,20 @@ class ChatController:
         """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
         self._say_as_one(lambda: self.session.say_plan(plan_text), shown, plan_text)
 
+    def say_program(self, text: str) -> None:
+        """Ask for a program that does this."""
+        self._say_as_one(lambda: self.session.say_program(text), "", text)
+
+    def drop_behind_command(self) -> None:
+        """Drop what was pasted behind a command that has ended without a turn."""
+        with self._order:
+            undone = self._pasted.drop() if self._pasted.is_behind_command else ()
+        self._tell_undone(undone)
+
     def _say_as_one(self, say: Callable[[], int], shown: str, text: str) -> None:
         with self._order:
-            undone = self._pasted.drop()
-            self.attempt(lambda: self._note_said(say(), text))
+            undone = () if self._pasted.is_behind_command else self._pasted.drop()
+            self.attempt(lambda: self._note_followed(say(), text))
             if shown:
                 self._echo(shown)
         self._tell_undone(undone)
@@ -235,11 +250,10 @@ class ChatController:
         self._echo(text, anew=is_pasted)
 
     def _say_one(self, text: str) -> None:
-        turn = self.session.say(text)
-        self._pasted.follow(turn)
-        self._note_said(turn, text)
+        self._note_followed(self.session.say(text), text)
 
-    def _note_said(self, turn: int, text: str) -> None:
+    def _note_followed(self, turn: int, text: str) -> None:
+        self._pasted.follow(turn)
         self._interrupted_s = float("-inf")  # it stands between two interrupts
         for note in self.on_said:
             note(turn, text)

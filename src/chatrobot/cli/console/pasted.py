@@ -18,8 +18,6 @@ MOST_TEXTS = QUEUE_LIMIT + 1
 """One runs, the others wait."""
 _GOES_ON: frozenset[Outcome] = frozenset({"completed", "answered"})
 _STOPS = frozenset({"/stop", "/estop"})
-_LAST = ("/program", "/run-plan", "/quit")
-"""What they begin takes a turn of its own, or ends the conversation: nothing can follow."""
 _TYPED_ALONE = ("release", "limit")
 _SHOWN_CHARS = 60
 
@@ -30,6 +28,8 @@ class Pasted:
     def __init__(self) -> None:
         self._texts: deque[str] = deque()
         self._turn = 0
+        self.is_behind_command = False
+        """What waits comes after a command that has not said its turn yet."""
 
     @property
     def is_waiting(self) -> bool:
@@ -46,7 +46,11 @@ class Pasted:
 
     def follow(self, turn: int) -> None:
         """Have what waits come after this turn."""
-        self._turn = turn
+        self._turn, self.is_behind_command = turn, False
+
+    def follow_command(self) -> None:
+        """Have what waits come after the turn of the command that is done now."""
+        self._turn, self.is_behind_command = 0, True
 
     def is_after(self, turn: int) -> bool:
         """Tell whether this is the turn that is waited for."""
@@ -56,6 +60,7 @@ class Pasted:
         """Forget what waits; it is returned."""
         dropped = tuple(self._texts)
         self._texts.clear()
+        self.is_behind_command = False
         return dropped
 
 
@@ -77,7 +82,13 @@ def cut_at_stop(
 
 def ends_a_paste(command: str) -> bool:
     """Tell whether nothing can follow this command."""
-    return command.casefold().startswith(_LAST)
+    return command.casefold().startswith("/quit")
+
+
+def takes_turn(command: str) -> bool:
+    """Tell whether what this command begins is a turn, which what is behind it waits for."""
+    word, *argument = command[1:].casefold().split()[:2] or [""]
+    return word == "run-plan" or (word == "program" and argument not in ([], ["list"]))
 
 
 def must_be_typed(command: str) -> str:
