@@ -60,6 +60,9 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield settings
     if settings.state == "missing":
         return  # everything else looks there first
+    places = _try("remembered places", lambda: _places(args))
+    if places.state == "missing":
+        yield places
     profile = _try("robot profile", lambda: _profile(args))
     yield profile
     if profile.state == "missing":
@@ -85,6 +88,16 @@ def _settings(args: argparse.Namespace) -> str:
     if not (there.is_dir() and os.access(there, os.W_OK)):
         raise ChatRobotError(f"{folder} cannot be written: choose another with --config-dir")
     return str(folder) if there == folder else f"{folder} (made when there is something to keep)"
+
+
+def _places(args: argparse.Namespace) -> str:
+    from chatrobot.dialogue.places import Places
+    from chatrobot.language.phrases import render_reason
+
+    unkept = Places(config_folder(args), args.robot, "").take_unkept()
+    if unkept is not None:
+        raise ChatRobotError(render_reason(unkept, "en"))
+    return "kept"
 
 
 def _profile(args: argparse.Namespace) -> str:

@@ -216,6 +216,9 @@ class Dispatch:
             meant = replace(meant, reply=self._told("paused_now", paused))
         elif self._understanding.tells_it_moves(meant):
             meant = replace(meant, reply=self._told_under_way(meant) or meant.reply)
+        elif self._goals.options.rehearse_only and (meant.remember_place or meant.renamed):
+            told = say(meant.language, "only_rehearsed")
+            meant = replace(meant, reply=told, remember_place="", renamed={})
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(utterance.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":

@@ -124,8 +124,8 @@ class RequestLog:
         self.take(turn)
         understanding = self._understanding
         unkept = understanding.places.take_unkept()
-        if unkept:
-            self._emit(Notice(turn, Reason("places_not_kept", {"why": unkept})))
+        if unkept is not None:
+            self._emit(Notice(turn, unkept))
         if finished is None:
             measured = understanding.is_measured
             result = Result(

@@ -11,10 +11,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from chatrobot.core.errors import InputError
 from chatrobot.core.events import Finished, Telemetry
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import one_line
+from chatrobot.core.reason import Reason, one_line
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.language.context import Place
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
@@ -30,6 +29,9 @@ if TYPE_CHECKING:
 
 
 _FILE = "places.json"
+_Entries = dict[str, dict[str, object]]
+_UNREADABLE = (ValueError, KeyError, AttributeError, TypeError, RecursionError)
+"""What a file raises that somebody else has written to."""
 MOVED = "cannot_undo_moved"
 ODOMETRY_ANEW = "cannot_undo_odometry_anew"
 UNMEASURED = "cannot_undo_unmeasured"
@@ -50,8 +52,8 @@ class Places:
         self._path = folder / _FILE if folder is not None else None
         self._robot = robot
         self._epoch = epoch
-        self._kept: dict[str, dict[str, object]] = self._load()
-        self._unkept = ""
+        self._unkept: Reason | None = None
+        self._kept = self._load()
 
     def add(self, name: str, pose: Pose) -> None:
         """Remember `pose` under `name`; an older place of that name is replaced."""
@@ -72,11 +74,13 @@ class Places:
         try:
             self._save()
         except OSError as error:  # a full disk is no reason to stop a robot
-            self._unkept = error.strerror or str(error)
+            self._unkept = Reason("places_not_kept", {"why": error.strerror or str(error)})
+        except _UNREADABLE:
+            self._unkept = Reason("places_unreadable", {"file": str(self._path)})
 
-    def take_unkept(self) -> str:
-        """Return why the last place is remembered for this session only; once, empty where it was kept."""
-        unkept, self._unkept = self._unkept, ""
+    def take_unkept(self) -> Reason | None:
+        """Return why places are remembered for this session only; once, None where they are kept."""
+        unkept, self._unkept = self._unkept, None
         return unkept
 
     def all(self) -> Mapping[str, Place]:
@@ -87,29 +91,29 @@ class Places:
         x, y, yaw = (float(str(entry[key])) for key in ("x_m", "y_m", "yaw_rad"))
         return Place(Pose(x, y, yaw), usable=entry["epoch"] == self._epoch)
 
-    def _load(self) -> dict[str, dict[str, object]]:
-        if self._path is None or not self._path.exists():
-            return {}
+    def _load(self) -> _Entries:
         try:
-            robots = json.loads(self._path.read_text(encoding="utf-8"))
-            found: dict[str, dict[str, object]] = dict(robots.get(self._robot, {}))
-            kept = {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
-            for entry in kept.values():
-                self._place(entry)
-        except (ValueError, KeyError, AttributeError, TypeError) as error:
-            raise InputError(
-                f"it cannot be read: {error}",
-                where=str(self._path),
-                allowed="remove the file to begin without remembered places",
-            ) from error
-        return kept
+            return self._read()[1]
+        except (OSError, *_UNREADABLE):  # no reason not to drive
+            self._unkept = Reason("places_unreadable", {"file": str(self._path)})
+            return {}
+
+    def _read(self) -> tuple[dict[str, object], _Entries]:
+        """Return what the file holds of all robots, and the places of ours. Raises one of `_UNREADABLE`."""
+        if self._path is None or not self._path.exists():
+            return {}, {}
+        robots = json.loads(self._path.read_text(encoding="utf-8"))
+        found: _Entries = dict(robots.get(self._robot, {}))
+        for entry in found.values():
+            self._place(entry)
+        return robots, {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
 
     def _save(self) -> None:
-        """Write beside and rename: a full disk or a kill leaves the old file whole."""
+        """Write beside and rename: a full disk or a kill leaves the old file whole, as does one that may be mended."""
         if self._path is None:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        robots = json.loads(self._path.read_text(encoding="utf-8")) if self._path.exists() else {}
+        robots, _ = self._read()
         robots[self._robot] = self._kept
         beside = self._path.with_suffix(".new")
         beside.write_text(json.dumps(robots, ensure_ascii=False, indent=1), encoding="utf-8")
