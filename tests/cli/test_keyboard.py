@@ -16,10 +16,13 @@ def command(folder, *arguments):
 def test_a_stop_that_is_typed_stops_the_robot_and_what_was_still_to_come(tmp_path):
     with command(tmp_path, "do", "forward 2 m", "turn left") as terminal:
         terminal.wait_for(r"0\.\d\d / 2.00 m")
+        terminal.enter("turn right")
+        terminal.wait_for("“turn right” was not done: while this runs, only “stop”")
         terminal.enter("stop!")
         assert terminal.wait_for_end() == 5
         assert "Stopped (you said “stop!”)" in terminal.text
-        assert "turn left" not in terminal.text
+        assert "these were not started: “turn left”" in terminal.text
+        assert "> turn left" not in terminal.text
 
 
 def test_a_yes_that_was_typed_before_the_question_is_no_answer(tmp_path):

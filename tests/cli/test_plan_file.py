@@ -31,6 +31,12 @@ def test_a_saved_plan_is_driven_and_texts_are_the_turns_after_it(chatrobot: Comm
     assert len(done.named("rehearsed")) == 2
 
 
+def test_one_of_two_plans_is_not_lost_without_a_word(chatrobot: Command, tmp_path: Path) -> None:
+    file = plan(tmp_path, "drive 0.5 m")
+    done = chatrobot("do", "--plan", file, "--plan", file, *FAST)
+    assert (done.code, "--plan is given twice" in done.err) == (2, True)
+
+
 def test_a_plan_of_a_file_is_held_to_the_limits_and_to_the_world(chatrobot: Command, tmp_path: Path) -> None:
     too_fast = chatrobot("do", "--plan", plan(tmp_path, "drive 1 m at 9 m/s"), *FAST)
     assert (too_fast.code, "1.00 m/s is possible" in too_fast.out) == (4, True)

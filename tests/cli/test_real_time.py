@@ -82,6 +82,16 @@ def test_chatrobot_stop_stops_what_runs_elsewhere(chatrobot: Command) -> None:
         assert robot.end() == 5
 
 
+def test_chatrobot_stop_ends_a_dialogue_whatever_else_may_follow(chatrobot: Command) -> None:
+    with chatrobot.start("do", "forward 2 m", "back 1 m", "--keep-going", "--json", *EMPTY) as robot:
+        moving(robot)
+        chatrobot.apart("stop")
+        assert robot.event("result")["outcome"] == "stopped"
+        reason = robot.event("notice")["reason"]
+        assert (reason["code"], reason["texts"]) == ("turns_stopped", "“back 1 m”")
+        assert robot.end() == 5
+
+
 def test_chatrobot_stop_says_of_a_robot_that_stood_that_it_stood(chatrobot: Command) -> None:
     with chatrobot.start("--json", *EMPTY) as robot:
         robot.say("where are you?")

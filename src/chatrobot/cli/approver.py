@@ -68,10 +68,12 @@ class Approver(Approval):
         with contextlib.suppress(queue.Empty):
             self._take(session, self._lines.get_nowait())
 
-    def type(self, line: str) -> None:
-        """Take a typed line: no answer where no question is shown. From any thread."""
-        if self._has_asked and self.turn is not None:
+    def type(self, line: str) -> bool:
+        """Take a typed line; false where no question is shown that it could answer. From any thread."""
+        is_asking = self._has_asked and self.turn is not None
+        if is_asking:
             self._lines.put(line)
+        return is_asking
 
     def lose_keyboard(self) -> None:
         """Nothing more will be typed: that is a no. From any thread."""

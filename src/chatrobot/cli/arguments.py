@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from chatrobot import __version__
 from chatrobot.cli.families import PROGRAM_ACTIONS, WORLD_ACTIONS, actions_of, all_known, no_such_command
-from chatrobot.cli.options import Parser, add_defaults, add_options, joined, port, positive
+from chatrobot.cli.options import Once, Parser, add_defaults, add_options, joined, port, positive
 from chatrobot.cli.options import argument as _add
 from chatrobot.core.errors import UsageError
 from chatrobot.options import NO_ODOMETRY, OF_NODES, OPTIONS
@@ -192,9 +192,10 @@ def commands_parser() -> Parser:
 def _do(parser: argparse.ArgumentParser) -> None:
     _add(parser, "texts", nargs="*", metavar="TEXT", help="what to do; several are turns of one dialogue")
     drive = "drive a saved plan, text or JSON (- for standard input), rehearsed anew; texts are the turns after it"
-    _add(parser, "--plan", "files", metavar="FILE", help=drive)
+    _add(parser, "--plan", "files", action=Once, metavar="FILE", help=drive)
     keep = "do the rest, too, after a turn that was refused, stopped or failed; the exit code is then"
-    _add(parser, "--keep-going", action="store_true", help=f"{keep} that of the first of these")
+    keep = f"{keep} that of the first of these; a stop from somebody ends all of it"
+    _add(parser, "--keep-going", action="store_true", help=keep)
 
 
 def _plan(parser: argparse.ArgumentParser) -> None:

@@ -10,6 +10,8 @@ import threading
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.conversation import Conversation
 from chatrobot.cli.lines import has_keyboard, read_chunk
+from chatrobot.core.events import Notice
+from chatrobot.core.reason import Reason, one_line
 from chatrobot.reflex import is_pause, leads_with_stop
 
 
@@ -54,5 +56,6 @@ class Keyboard:
             self._conversation.hear(line)
         elif leads_with_stop(line):
             self._conversation.halt(line)
-        else:
-            self._approver.type(line)
+        elif not self._approver.type(line) and line:
+            notice = Notice(0, Reason("only_stop_heard", {"text": one_line(line)}))
+            self._conversation.post(lambda: self._conversation.show(notice))

@@ -100,6 +100,20 @@ def argument(parser: argparse.ArgumentParser, name: str, offers: str = "", **how
     offer(parser.add_argument(name, **how), offers or ())
 
 
+class Once(argparse.Action):
+    """Refuses a second value, where the first would be lost without a word."""
+
+    def __call__(self, _: Any, namespace: argparse.Namespace, values: Any, option_string: Any = None) -> None:
+        """Take the value.
+
+        Raises:
+            UsageError: there is one already.
+        """
+        if getattr(namespace, self.dest, None) is not None:
+            raise UsageError(f"{option_string} is given twice", allowed=f"one {option_string} {self.metavar}")
+        setattr(namespace, self.dest, values)
+
+
 def offer(action: argparse.Action, offers: str | tuple[str, ...]) -> None:
     """Note what Tab completes the value of `action` with: see `Option`."""
     vars(action)["offers"] = offers
