@@ -249,6 +249,26 @@ def test_in_real_time_a_stop_from_another_thread_waits_for_nothing() -> None:
 
 @pytest.mark.realtime
 @pytest.mark.usefixtures("runtime")
+def test_in_real_time_who_waits_hears_that_another_thread_has_closed_the_robot() -> None:
+    moving, told = threading.Event(), []
+    robot = chatrobot.connect(world="empty")
+    robot.on_event(lambda event: moving.set() if isinstance(event, Progress) else None)
+
+    def drive() -> None:
+        with pytest.raises(chatrobot.ChatRobotError, match="closed") as raised:
+            robot.do("forward 10 m")
+        told.append(raised.value)
+
+    waiting = threading.Thread(target=drive, daemon=True)
+    waiting.start()
+    assert moving.wait(30)
+    robot.close()
+    waiting.join(30)
+    assert told
+
+
+@pytest.mark.realtime
+@pytest.mark.usefixtures("runtime")
 def test_in_real_time_what_a_listener_raises_comes_out_of_do() -> None:
     with chatrobot.connect(world="empty") as robot:
         robot.on_event(break_on_start)

@@ -150,7 +150,7 @@ class Robot:
 
         Raises:
             UsageError: `text` is no text.
-            ChatRobotError: something broke.
+            ChatRobotError: something broke, or another thread has closed the robot.
         """
         _refuse_unless(isinstance(text, str), "text", text, "what to do, such as 'forward 1 m'")
         return self._see_through(self._session.say(text))
@@ -192,10 +192,11 @@ class Robot:
         self._listeners.append(callback)
 
     def close(self) -> None:
-        """Say goodbye. Closing twice does no harm."""
+        """Say goodbye; a `do` that another thread waits in raises. Closing twice does no harm."""
         if self._closing:
             return
         self._closing = True
+        self._tell_waiting()
         if self._pump is not None:
             self._pump.stop()
         self._connection.close()
@@ -213,9 +214,12 @@ class Robot:
 
     @property
     def _session(self) -> Session:
+        self._refuse_closed()
+        return self._connection.session
+
+    def _refuse_closed(self) -> None:
         if self._closing:
             raise ChatRobotError("this robot has been closed")
-        return self._connection.session
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, (Telemetry, Result)):
@@ -248,6 +252,7 @@ class Robot:
             raise error
         if self._lost is not None:
             raise self._lost
+        self._refuse_closed()  # nobody pumps any more: the result would never come
 
     def _tell_waiting(self) -> None:
         with self._news:
