@@ -13,6 +13,7 @@ import time
 from collections.abc import AsyncIterator, Iterator
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
+from typing import Any
 
 import anyio
 import pytest
@@ -163,6 +164,30 @@ def test_a_persons_stop_ends_the_call_and_the_agent_is_told_who_it_was(served: S
             )
             assert agent.wire.velocities.seconds_to_zero(said_s) < 1.0
             assert await agent.stands()
+
+    anyio.run(task)
+
+
+def test_a_call_that_is_given_up_while_it_waits_takes_along_what_waits_behind_it(served: Served) -> None:
+    async def task() -> None:
+        async with served.agent() as agent:
+            told: dict[str, dict[str, Any]] = {}
+
+            async def instruct(text: str) -> None:
+                told[text] = await agent.data("instruct", text=text)
+
+            async with anyio.create_task_group() as group:
+                group.start_soon(instruct, "forward 1 m")
+                await anyio.to_thread.run_sync(agent.wire.velocities.wait_for_motion)
+                async with anyio.create_task_group() as given_up:
+                    given_up.start_soon(instruct, "turn left")
+                    await anyio.sleep(0.3)
+                    group.start_soon(instruct, "forward 50 cm")
+                    await anyio.sleep(0.3)
+                    given_up.cancel_scope.cancel()
+            assert "turn left" not in told
+            assert told["forward 1 m"]["outcome"] == "completed", "it was under way, and somebody waits for it"
+            assert told["forward 50 cm"]["reason"]["code"] == "not_begun", "it was to begin after the turn"
 
     anyio.run(task)
 

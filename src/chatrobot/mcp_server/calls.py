@@ -31,7 +31,7 @@ from chatrobot.core.events import (
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.dialogue.session import Session
 from chatrobot.mcp_server.record import words_of
-from chatrobot.mcp_server.robot import SOURCE, AgentRobot
+from chatrobot.mcp_server.robot import SOURCE, AgentRobot, Place
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 
 MOST_WAITING = 10
@@ -149,16 +149,22 @@ class Calls:
         if self._robot.waiting_turn is not None:
             return Course("waiting", self._robot.waiting_turn)
         turns = self._robot.turns
-        if turns.waiting >= MOST_WAITING:
+        if len(turns.waiting) >= MOST_WAITING:
             return Course("busy")
-        turns.waiting += 1
+        place = Place()
+        turns.waiting.append(place)
         try:
             async with turns.lock:
-                if self._robot.setbacks != setbacks or (line is not None and line.is_gone):
+                if line is not None and line.is_gone:
+                    turns.give_up(place)
+                if self._robot.setbacks != setbacks or place.is_dropped:
                     return Course("dropped")
                 return await self._see_through(session, say, report, line, rehearse_only=rehearse_only)
+        except asyncio.CancelledError:
+            turns.give_up(place)
+            raise
         finally:
-            turns.waiting -= 1
+            turns.waiting.remove(place)
 
     async def _see_through(
         self,

@@ -25,12 +25,25 @@ _POLL_S = 0.02
 _ENDING = "This server is ending."
 
 
+class Place:
+    """That of one instruction in the line."""
+
+    is_dropped = False
+    """One before it was given up: it is not begun."""
+
+
 class Turns:
     """Whose turn it is: one instruction at a time, of all clients of a robot."""
 
     def __init__(self) -> None:
         self.lock = asyncio.Lock()
-        self.waiting = 0
+        self.waiting: list[Place] = []
+        """Those that have been taken, in their order; the first may be under way."""
+
+    def give_up(self, place: Place) -> None:
+        """Nobody waits for that one any more: what was to begin where it ends is not begun."""
+        for behind in self.waiting[self.waiting.index(place) :]:
+            behind.is_dropped = True
 
 
 class RobotGoneError(ChatRobotError):
