@@ -40,6 +40,13 @@ def test_what_cannot_be_done_is_a_value(text: str, outcome: str) -> None:
         assert robot.do(text).outcome == outcome
 
 
+def test_a_result_says_what_was_left_out_and_what_could_not_be_kept() -> None:
+    with fast(robot="wheeltec_mini_akm", config_dir="/proc/none") as robot:
+        turned, kept = robot.do("forward 50 cm, then turn left"), robot.do("remember this place as base")
+    assert turned.reply.endswith("This robot cannot turn on the spot, so the last turn is left out.")
+    assert "for this session only" in kept.reply
+
+
 def test_a_plan_runs_as_an_object_or_as_text() -> None:
     with fast() as robot:
         assert robot.run(Plan((Drive(distance_m=0.5),))).path_m == pytest.approx(0.5, abs=0.02)

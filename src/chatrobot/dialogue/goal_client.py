@@ -6,12 +6,13 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from chatrobot.core.event import Proposal
-from chatrobot.core.events import Event, Finished, Notice, Outcome, Result
+from chatrobot.core.events import Event, Finished, Outcome, Rehearsed, Result
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.phrases import render_reason
 from chatrobot.link.motion_link import MotionLink
 
 
@@ -78,6 +79,7 @@ class RequestLog:
         self._understanding = understanding
         self._emit = emit
         self._with_motion: dict[int, Instruction] = {}
+        self._left_out: dict[int, Reason] = {}
         self.results: dict[int, Result] = {}
 
     @property
@@ -107,6 +109,12 @@ class RequestLog:
         """Note that Motion has that turn; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
 
+    def hear(self, event: Event) -> None:
+        """Note what rehearsal leaves out of a turn: its result says so, for whoever sees no more than that."""
+        if isinstance(event, Rehearsed):
+            found = (each.reason for each in event.findings if each.reason.code == "turn_left_out")
+            self._left_out |= {event.turn: reason for reason in found}
+
     def take(self, turn: int) -> Instruction | None:
         """Return what a turn was about that Motion is done with, None where Motion never had it."""
         return self._with_motion.pop(turn, None)
@@ -123,9 +131,11 @@ class RequestLog:
         """End that turn: `finished` is what was measured, None where nothing moved; the reply asks about `proposal`."""
         self.take(turn)
         understanding = self._understanding
-        unkept = understanding.places.take_unkept()
-        if unkept is not None:
-            self._emit(Notice(turn, unkept))
+        unkept, left_out = understanding.places.take_unkept(), self._left_out.pop(turn, None)
+        notes = [unkept] if unkept is not None else []
+        if left_out is not None and outcome == "completed":
+            notes.append(left_out)
+        reply = " ".join([reply, *(render_reason(note, understanding.language) for note in notes)])
         if finished is None:
             measured = understanding.is_measured
             result = Result(

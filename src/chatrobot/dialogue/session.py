@@ -325,6 +325,7 @@ class Session:
         if self._requests.has(event.turn) or self._llm.has(event.turn):
             was_paused = self.is_plan_paused
             self._resuming.hear(event)
+            self._requests.hear(event)
             if was_paused and not self.is_plan_paused:
                 self._utterances.drop_held(self._resuming.ended_by)
         if self._utterances.hear(event):
@@ -336,8 +337,7 @@ class Session:
             self._finish(event)
 
     def _finish(self, event: Finished) -> None:
-        instruction = self._requests.take(event.turn)
-        if instruction is None:
+        if (instruction := self._requests.take(event.turn)) is None:
             return
         (text, meant, _), programs, rehearse_only = instruction, self._programs, self.options.rehearse_only
         program = event.turn if programs is not None and programs.has_run(event.turn) else 0
