@@ -108,9 +108,10 @@ def test_chatrobot_stop_says_of_a_robot_that_stood_that_it_stood(chatrobot: Comm
         assert robot.event("result")["outcome"] == "stopped"
 
 
-def test_chatrobot_stop_with_nothing_running_says_so(chatrobot: Command) -> None:
+def test_chatrobot_stop_that_finds_nothing_says_where_it_looked(chatrobot: Command, tmp_path: Path) -> None:
     done = chatrobot.apart("stop")
-    assert (done.code, done.out) == (0, "nothing is running\n")
+    assert (done.code, done.out) == (1, "")
+    assert f"no running robot is found in {tmp_path / 'chatrobot'}, /run/user/" in done.err
     assert chatrobot("STOP") == done
 
 
@@ -121,7 +122,7 @@ def test_chatrobot_stop_clears_away_what_a_killed_robot_left(chatrobot: Command,
     code = f"import socket; socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET).bind({str(left)!r})"
     subprocess.run([sys.executable, "-c", code], check=True)
     assert left.exists()
-    assert chatrobot.apart("stop").out == "nothing is running\n"
+    assert "nothing was stopped" in chatrobot.apart("stop").err
     assert not left.exists()
 
 

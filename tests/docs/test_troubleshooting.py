@@ -12,7 +12,7 @@ from chatrobot.language.data_files import load_table
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
 ENTRIES = re.findall(r"^\*\*“(.+)”\*\*(?: \(`(\w+)`\))?\n(.+)", PAGE, re.MULTILINE)
-PHRASES = {**load_table("en", "phrases"), **load_table("en", "outcomes")}
+PHRASES = {**load_table("en", "phrases"), **load_table("en", "outcomes"), **load_table("en", "console")}
 SOURCE = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / "src" / "chatrobot").rglob("*.py"))
 VALUE = re.compile(r"\{[^{}]*\}")
 

@@ -95,6 +95,7 @@ def test_an_agents_plan_waits_for_the_persons_yes(person: Person) -> None:
                 await anyio.sleep(0.1)
             assert seen["pose"]["x_m"] == pytest.approx(0.3, abs=0.03)
             assert "0.30 m" in seen["happened"][0]
+            assert seen["robot"]["shared_with"] == "chatrobot web"
 
     anyio.run(task)
 

@@ -186,7 +186,9 @@ def test_a_call_that_is_given_up_while_it_waits_takes_along_what_waits_behind_it
                     await anyio.sleep(0.3)
                     given_up.cancel_scope.cancel()
             assert "turn left" not in told
-            assert told["forward 1 m"]["outcome"] == "completed", "it was under way, and somebody waits for it"
+            assert told["forward 1 m"]["outcome"] == "completed", (
+                "it was under way, and somebody waits for it"
+            )
             assert told["forward 50 cm"]["reason"]["code"] == "not_begun", "it was to begin after the turn"
 
     anyio.run(task)

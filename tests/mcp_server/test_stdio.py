@@ -55,6 +55,8 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
 
             seen = await agent.data("observe")
             assert seen["pose"]["x_m"] == pytest.approx(0.4, abs=0.03)
+            own = {"simulated": True, "world": "empty", "shared_with": None}
+            assert seen["robot"] == {"name": "wheeltec_mini_mec", **own}
             assert set(seen["free_way_m"]) >= {"ahead", "left", "behind", "right"}
 
             await agent.cancel_in_motion(text="前进三米")

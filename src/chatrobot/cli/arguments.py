@@ -20,7 +20,7 @@ from chatrobot.programs.ros_args import split_ros_args
 COMMANDS = {
     "do": "one instruction, or a dialogue turn by turn, then exit",
     "plan": "understand and rehearse only; nothing moves",
-    "stop": "stop whatever runs on this machine",
+    "stop": "stop whatever you run on this machine",
     "lesson": "tasks for a simulated robot, checked by what it really did",
     "eval": "run a corpus of sayings and count correct, wrong and abstained",
     "calibrate": "one metre and one turn: you measure, your profile gets the correction",

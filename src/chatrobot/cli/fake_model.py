@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import secrets
 import sys
 from dataclasses import replace
@@ -25,7 +26,8 @@ def run(args: argparse.Namespace) -> int:
     try:
         fake.start()
     except OSError as error:
-        problem = f"cannot listen on {args.host}:{args.port}: {error.strerror}"
+        why = os.strerror(error.errno) if (error.errno or 0) > 0 else error  # asyncio adds the address a second time
+        problem = f"cannot listen on {args.host}:{args.port}: {why}"
         raise UsageError(problem, allowed="--port 0") from None
     if args.json:
         _print_json({"event": "listening", "url": fake.url, "model": script.models[0]})

@@ -1,4 +1,4 @@
-"""`chatrobot stop`: stop whatever runs on this machine. Imports next to nothing: it must be out in 60 ms."""
+"""`chatrobot stop`: stop whatever this user runs on this machine. Imports next to nothing: it must be out in 60 ms."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from chatrobot.wire.runtime_dir import stop_socket_paths
+from chatrobot.wire.runtime_dir import runtime_dirs, stop_socket_paths
 
 ANSWER_S = 1.0
 """Motion answers as soon as its zero is out; one that has not after this long is frozen."""
@@ -20,17 +20,27 @@ _ANSWERS = {
     b"unseen": "Stop sent. There is no odometry, so I cannot confirm that the robot stopped.",
 }
 """What Motion found, by odometry, when the zero was out."""
+_ELSEWHERE = (
+    "If one runs: stop it as the user, and in the container, that started it, with the same XDG_RUNTIME_DIR "
+    "(docs/troubleshooting.md, Who stops whom)"
+)
 
 
 def run(_: object = None) -> int:
-    """Return 0 where everything that runs has stopped, or nothing runs; 1 where something does not answer."""
+    """Return 0 where everything that was found has stopped; 1 where nothing was found, or something does not answer."""
     # To connect is to be heard: all of them stop before the first answer is waited for.
     callers = [(path, caller) for path in stop_socket_paths() if (caller := _call(path)) is not None]
     if not callers:
-        print("nothing is running")
-        return 0
+        print(
+            f"nothing was stopped: no running robot is found in {_looked_in()}\n{_ELSEWHERE}", file=sys.stderr
+        )
+        return 1
     deadline_s = time.monotonic() + ANSWER_S
     return max(_report(path, caller, deadline_s) for path, caller in callers)
+
+
+def _looked_in() -> str:
+    return ", ".join(str(path) for path in runtime_dirs())
 
 
 def _call(path: Path) -> socket.socket | None:

@@ -140,7 +140,10 @@ def host_agents(
     if importlib.util.find_spec("mcp") is None:
         return None
     robot = AgentRobot(
-        lambda on_event: connection.second_session(SOURCE, on_event), approval_address, is_latched
+        lambda on_event: connection.second_session(SOURCE, on_event),
+        approval_address,
+        is_latched,
+        is_shared=True,
     )
     host = AgentHost(robot, connection.profile, is_simulated=is_simulated)
     host.start()

@@ -159,10 +159,7 @@ def listen(host: str, port: int | None) -> socket.socket:
             return _bound(host, number)
         except OSError as error:
             problem = error.strerror or str(error)
-    where = f"--port {port}" if port is not None else "--port"
-    raise UsageError(
-        f"{host} cannot be listened at: {problem}", where=where, allowed="another port, or --host"
-    )
+    raise UsageError(f"cannot listen on {host}:{number}: {problem}", allowed="--port 0, or another --host")
 
 
 def _bound(host: str, port: int) -> socket.socket:

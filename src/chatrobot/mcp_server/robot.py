@@ -57,6 +57,7 @@ class AgentRobot:
         connect: meets the robot, in a thread of its own.
         approval_address: where a person says yes to a plan, "" where nobody is there to say it.
         is_latched: whether a person beside it has set the emergency stop.
+        is_shared: it is the robot of a person's web console.
     """
 
     def __init__(
@@ -64,8 +65,11 @@ class AgentRobot:
         connect: Connect,
         approval_address: Callable[[], str] = lambda: "",
         is_latched: Callable[[], bool] = lambda: False,
+        *,
+        is_shared: bool = False,
     ) -> None:
         self._connect = connect
+        self.is_shared = is_shared
         self.approval_address = approval_address
         self._is_latched = is_latched
         self.record = Record()
@@ -76,7 +80,7 @@ class AgentRobot:
         """The turn that waits for a person's yes, without a call that waits for it."""
         self.paused_turn: int | None = None
         """The turn whose plan is kept by a pause, without a call that waits for it."""
-        self._connection: Connection | None = None
+        self.connection: Connection | None = None
         self._pump: Pump | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._listeners: list[Listener] = []
@@ -90,7 +94,7 @@ class AgentRobot:
         """Begin to meet the robot, unless that is under way or done."""
         self._loop = asyncio.get_running_loop()
         with self._changing:
-            if self._is_starting or self._is_closed or self._connection is not None:
+            if self._is_starting or self._is_closed or self.connection is not None:
                 return
             self._is_starting, self._failure = True, None
         threading.Thread(target=self._meet, name="meet", daemon=True).start()
@@ -104,7 +108,7 @@ class AgentRobot:
         self.start()
         if self._is_refusing:
             raise RobotGoneError(_ENDING)
-        while self._connection is None:
+        while self.connection is None:
             if self._failure is not None:
                 raise RobotGoneError(f"{self._failure} The next call tries again.") from self._failure
             if self._is_closed:
@@ -114,7 +118,7 @@ class AgentRobot:
             raise RobotGoneError(
                 f"{self._failure} A person has to restart this MCP server."
             ) from self._failure
-        return self._connection
+        return self.connection
 
     @contextlib.contextmanager
     def listening(self, listener: Listener) -> Iterator[None]:
@@ -130,7 +134,7 @@ class AgentRobot:
     @property
     def session(self) -> Session | None:
         """Return the session; None before the robot is there."""
-        return self._connection.session if self._connection is not None else None
+        return self.connection.session if self.connection is not None else None
 
     @property
     def language(self) -> str:
@@ -165,8 +169,8 @@ class AgentRobot:
         self.refuse(why)
         if self._pump is not None:
             self._pump.stop()
-        if self._connection is not None:
-            self._connection.close()
+        if self.connection is not None:
+            self.connection.close()
 
     # --- threads of its own ---
 
@@ -180,7 +184,7 @@ class AgentRobot:
             return
         with self._changing:
             pump = Pump(connection.session, self._lose)
-            self._pump, self._connection, self._is_starting = pump, connection, False
+            self._pump, self.connection, self._is_starting = pump, connection, False
             is_late = self._is_closed
             if not is_late:
                 pump.start()

@@ -11,7 +11,7 @@ from chatrobot import __version__
 from chatrobot.core.event import strict_json
 from chatrobot.dialogue.llm.prompt import robot_line, step_lines
 from chatrobot.mcp_server.robot import AgentRobot
-from chatrobot.mcp_server.surroundings import map_of, motion_told
+from chatrobot.mcp_server.surroundings import map_of, motion_told, robot_told
 from chatrobot.mcp_server.told import pose_told
 from chatrobot.mcp_server.tools import Tools
 from chatrobot.robots.profile import RobotProfile
@@ -96,15 +96,19 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
     @server.resource(
         "chatrobot://state",
         name="state",
-        description="Where the robot is, how it moves, and the last events.",
+        description="Which robot it is, where, how it moves, and the last events.",
         mime_type="application/json",
     )
     def state() -> str:
-        moves = motion_told(record.telemetry, record.heard_at_s)
-        session = robot.session
-        is_paused = session is not None and session.is_paused
+        connection = robot.connection
         return strict_json(
-            {**moves, "connected": session is not None, "paused": is_paused, "happened": record.happened()}
+            {
+                "robot": robot_told(connection, is_shared=robot.is_shared) if connection else None,
+                **motion_told(record.telemetry, record.heard_at_s),
+                "connected": connection is not None,
+                "paused": connection is not None and connection.session.is_paused,
+                "happened": record.happened(),
+            }
         )
 
     @server.resource(

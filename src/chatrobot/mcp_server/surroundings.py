@@ -12,6 +12,7 @@ from chatrobot.core.events import Looked, Telemetry
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed
 from chatrobot.dialogue.llm.camera import Camera
+from chatrobot.link.processes import SIMULATED
 from chatrobot.mcp_server.told import in_words, pose_told, tidy
 from chatrobot.sim.world import World
 
@@ -111,6 +112,16 @@ def map_of(connection: Connection, pose: Pose | None) -> dict[str, Any]:
     }
 
 
+def robot_told(connection: Connection, *, is_shared: bool) -> dict[str, Any]:
+    """Return which robot it is: an agent may have meant another one."""
+    return {
+        "name": connection.profile.name,
+        "simulated": connection.prepared.setup.on in SIMULATED,
+        "world": connection.world.name,
+        "shared_with": "chatrobot web" if is_shared else None,
+    }
+
+
 def sectors_told(looked: Looked | None) -> dict[str, float | None] | None:
     """Return the free way by direction, metres from the robot's edge; None where nothing is seen there."""
     if looked is None or not looked.sectors_m:
@@ -164,7 +175,10 @@ def place_in_words(place: dict[str, Any]) -> str:
 
 def seen_in_words(data: dict[str, Any]) -> str:
     """Return what is observed in a few lines."""
-    lines = []
+    robot = data["robot"]
+    kind = f"simulated in the world {robot['world']}" if robot["simulated"] else "real"
+    whose = "of the person's chatrobot web" if robot["shared_with"] else "of this server alone"
+    lines = [f"Robot {robot['name']}, {kind}, {whose}."]
     if "pose" not in data:
         lines.append("The robot has not said where it is.")
     else:

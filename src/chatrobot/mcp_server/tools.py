@@ -150,6 +150,7 @@ class Tools:
                 0.01
             )  # what was heard before it asked may be of a motion that has ended since
         data: dict[str, Any] = surroundings.motion_told(record.telemetry, record.heard_at_s)
+        data["robot"] = surroundings.robot_told(connection, is_shared=self._robot.is_shared)
         pose = record.telemetry.pose if record.telemetry is not None else None
         data["free_way_m"] = sectors
         data["near"] = surroundings.things_near(connection.world, pose) if pose is not None else []

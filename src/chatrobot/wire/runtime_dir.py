@@ -1,34 +1,56 @@
-"""The folder where this user's running robots keep their sockets."""
+"""The folder where this user's running robots keep their sockets, and where to look for those of others of theirs.
+
+A shell of `su`, `cron` or `docker exec` and a service often lack XDG_RUNTIME_DIR, which a login has: each has to find what
+the other has started.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import os
 import stat
+from collections.abc import Iterator
 from pathlib import Path
 
 from chatrobot.core.errors import WireError
 
+SHARED = Path("/tmp")
+"""Where a user without a runtime folder has one."""
+
 
 def runtime_dir() -> Path:
-    """`$XDG_RUNTIME_DIR/chatrobot`, or `/tmp/chatrobot-<uid>`; made if missing, private to the user.
+    """The first of `runtime_dirs` that can be had; made if missing, private to the user.
 
     Raises:
-        WireError: somebody else owns the folder, or it is open to others.
+        WireError: somebody else owns the folder.
     """
-    base = os.environ.get("XDG_RUNTIME_DIR")
-    path = (
-        Path(base) / "chatrobot"
-        if base and os.access(base, os.W_OK)
-        else Path(f"/tmp/chatrobot-{os.getuid()}")
-    )
+    path = next(path for path in runtime_dirs() if path.parent == SHARED or os.access(path.parent, os.W_OK))
     path.mkdir(mode=0o700, exist_ok=True)
-    info = path.lstat()
-    if not stat.S_ISDIR(info.st_mode) or info.st_uid != os.getuid():
+    if not _is_ours(path):
         raise WireError(f"{path} is not ours: remove it or set XDG_RUNTIME_DIR to a folder of yours")
-    if info.st_mode & 0o077:
+    if path.lstat().st_mode & 0o077:
         path.chmod(0o700)
     return path
+
+
+def runtime_dirs() -> tuple[Path, ...]:
+    """Return where a program of this user may have put its sockets, the likeliest first; they need not be there."""
+    uid = os.getuid()
+    bases = (os.environ.get("XDG_RUNTIME_DIR"), f"/run/user/{uid}")
+    paths = [Path(base) / "chatrobot" for base in bases if base]
+    return tuple(dict.fromkeys([*paths, SHARED / f"chatrobot-{uid}"]))
+
+
+def _is_ours(path: Path) -> bool:
+    info = path.lstat()
+    return stat.S_ISDIR(info.st_mode) and info.st_uid == os.getuid()
+
+
+def _sockets(pattern: str) -> Iterator[Path]:
+    """Those in all folders that are ours: what another user put there is nobody's to talk to."""
+    for folder in runtime_dirs():
+        with contextlib.suppress(OSError):  # it is not there
+            yield from folder.glob(pattern) if _is_ours(folder) else ()
 
 
 def stop_socket_path(pid: int) -> Path:
@@ -44,7 +66,7 @@ def agent_socket_path(pid: int) -> Path:
 def agent_socket_paths() -> list[Path]:
     """Those of all that run, or died without tidying up; the newest first."""
     found = []
-    for path in runtime_dir().glob("agents-*.mcp"):
+    for path in _sockets("agents-*.mcp"):
         with contextlib.suppress(OSError):  # it is just leaving
             found.append((path.stat().st_mtime, path))
     return [path for _, path in sorted(found, reverse=True)]
@@ -52,4 +74,4 @@ def agent_socket_paths() -> list[Path]:
 
 def stop_socket_paths() -> list[Path]:
     """Those of all that run, or died without tidying up."""
-    return sorted(runtime_dir().glob("motion-*.stop"))
+    return sorted(_sockets("motion-*.stop"))
