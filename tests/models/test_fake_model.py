@@ -102,6 +102,13 @@ def test_tokens_are_paced_and_joined_they_are_the_text() -> None:
         ([{"tokens_per_s": "fast"}], "fast"),
         ([[1]], "mapping"),
         ([{"tool_calls": [{"nom": "x"}]}], "nom"),
+        ([{"error": {"status": "nope"}}], "nope"),
+        ([{"error": {"status": 42}}], "100 to 599"),
+        ([{"times": -1}], "times"),
+        ([{"hang_after": "abc"}], "hang_after"),
+        ({"tokens_per_s": -3, "replies": ["x"]}, "tokens_per_s"),
+        ({"model": [1]}, "model"),
+        ({"keys": "abc"}, "keys"),
     ],
 )
 def test_a_wrong_script_says_where_it_is_wrong(script: Any, said: str) -> None:

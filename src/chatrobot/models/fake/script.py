@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import threading
 from dataclasses import dataclass, field, fields
@@ -13,6 +14,9 @@ from chatrobot.core.errors import InputError
 _TOKEN = re.compile(r"\s*\S{1,4}|\s+")
 _HUGE_PIECE = "na " * 1365
 """4 kB: what a huge reply is made of."""
+_COUNTS = frozenset({"times", "cut_off_after", "hang_after", "prompt_tokens", "cached_tokens"})
+_AMOUNTS = frozenset({"tokens_per_s", "first_piece_s", "huge_mb", "retry_after_s"})
+_TEXTS = frozenset({"refusal", "finish", "raw", "content_type", "message", "code", "body", "name", "arguments"})
 _TOP = ("model", "models", "keys", "tokens_per_s", "first_piece_s", "replies", "otherwise")
 
 
@@ -134,8 +138,10 @@ def read_script(data: Any, where: str = "script") -> Script:
     if not isinstance(rows, list):
         raise ScriptError("replies is no list", where=where, allowed="replies: [{text: …}, …]")
     answers = (_answer(row, usual, f"{where}: reply {number}") for number, row in enumerate(rows, start=1))
-    models = given.get("models", [given.get("model", "fake")])
-    script = Script(tuple(answers), tuple(map(str, models)), tuple(map(str, given.get("keys", ()))))
+    models = _names_in(given, "models", where) or (str(given.get("model", "fake")),)
+    if not isinstance(given.get("model", ""), str):
+        raise ScriptError("model is no text", where=where, allowed="model: NAME, or models: [NAME, …]")
+    script = Script(tuple(answers), models, _names_in(given, "keys", where))
     if "otherwise" in given:
         script.otherwise = _answer(given["otherwise"], usual, f"{where}: otherwise")
     return script
@@ -148,16 +154,43 @@ def _answer(row: Any, usual: dict[str, Any], where: str) -> Answer:
         if "match" in values:
             values["match"] = re.compile(str(values["match"]), re.IGNORECASE)
         if "error" in values:
-            values["error"] = HttpError(**_mapping(values["error"], _names(HttpError), f"{where}: error"))
+            error = _checked(_mapping(values["error"], _names(HttpError), f"{where}: error"))
+            values["error"] = HttpError(**error)
         if "tool_calls" in values:
-            values["tool_calls"] = tuple(ToolCall(**call) for call in values["tool_calls"])
-        for name in ("tokens_per_s", "first_piece_s", "huge_mb"):
-            values[name] = float(values.get(name) or 0.0)
-        return Answer(**values)
+            values["tool_calls"] = tuple(ToolCall(**_checked(call)) for call in values["tool_calls"])
+        return Answer(**_checked(values))
     except re.error as error:
         raise ScriptError(f"match is no regular expression: {error}", where=where) from None
     except (TypeError, ValueError) as error:
         raise ScriptError(str(error), where=where) from None
+
+
+def _checked(values: dict[str, Any]) -> dict[str, Any]:
+    """Return the values, which are of their kinds.
+
+    Raises:
+        ValueError: one is not; it says what is allowed.
+    """
+    for name, value in values.items():
+        if value is None:
+            continue
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and 0 <= value < math.inf
+        if name in _COUNTS and not (is_number and isinstance(value, int)):
+            raise ValueError(f"{name}: {value!r} is no count (a whole number, 0 or more)")
+        if name in _AMOUNTS and not is_number:
+            raise ValueError(f"{name}: {value!r} is no amount (a number, 0 or more)")
+        if name in _TEXTS and not isinstance(value, str):
+            raise ValueError(f"{name}: {value!r} is no text")
+        if name == "status" and not (is_number and 100 <= value <= 599):
+            raise ValueError(f"status: {value!r} is no status of HTTP (100 to 599)")
+    return values
+
+
+def _names_in(given: dict[str, Any], key: str, where: str) -> tuple[str, ...]:
+    names = given.get(key) or []
+    if not isinstance(names, list) or not all(isinstance(name, (str, int)) for name in names):
+        raise ScriptError(f"{key} is no list of texts", where=where, allowed=f"{key}: [TEXT, …]")
+    return tuple(map(str, names))
 
 
 def _names(kind: type[Any]) -> tuple[str, ...]:
