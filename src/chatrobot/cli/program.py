@@ -20,6 +20,7 @@ from chatrobot.core.errors import UsageError
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.program_request import may_be_called
+from chatrobot.link.envelope import MAX_CODE_CHARS
 from chatrobot.programs.check import no_python
 from chatrobot.programs.library import KeptProgram, Library, clean_name
 from chatrobot.programs.ros_args import RosArgumentsError, check_args
@@ -69,9 +70,12 @@ def _run(args: argparse.Namespace) -> int:
 def _read(path: Path) -> str:
     try:
         with path.open("rb") as file:
-            data = file.read(_READ_BYTES)
+            data = file.read(_READ_BYTES + 1)
     except OSError as error:
         raise UsageError(f"cannot be read ({error.strerror})", where=str(path)) from error
+    if len(data) > _READ_BYTES:
+        allowed = f"{MAX_CODE_CHARS} characters at most"
+        raise UsageError(f"longer than {_READ_BYTES} bytes", where=str(path), allowed=allowed)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
