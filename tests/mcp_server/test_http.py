@@ -247,6 +247,7 @@ def test_programs_are_written_rehearsed_kept_and_run(served: Served) -> None:
             missing = await agent.call("programs", action="run", name="waltz")
             assert missing.is_error
             assert "broken, hop, spin" in text_of(missing)
+            assert (missing.structured_content or {})["reason"]["code"] == "no_program"
             unknown = await agent.call("programs", action="delete", name="spin")
             assert text_of(unknown) == "'delete' is no action: list, show, write, rehearse, run."
 

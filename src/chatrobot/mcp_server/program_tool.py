@@ -9,6 +9,7 @@ from typing import Any
 
 from mcp_types import CallToolResult
 
+from chatrobot.core.errors import InputError
 from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.session import Session
 from chatrobot.link.envelope import MAX_CODE_CHARS
@@ -47,7 +48,10 @@ class ProgramTool:
             return await self._write(authoring, name, text, report, line)
         if not name.strip():
             return error(f"{action} needs the name of a program: see programs(list).", "bad_arguments")
-        program = authoring.library.get(name)
+        try:
+            program = authoring.library.get(name)
+        except InputError as wrong:
+            return error(str(wrong), "no_program")
         if action == "show":
             return answer(f"{program.name}:\n{program.source}", {**about(program), "source": program.source})
         draft = authoring.draft_of(program)

@@ -196,7 +196,7 @@ class Tools:
         try:
             return await doing
         except ChatRobotError as wrong:
-            return error(str(wrong), "robot")
+            return error(str(wrong), "bad_arguments" if isinstance(wrong, InputError) else "robot")
 
 
 def _problem_with(text: str, plan: str) -> str:
