@@ -230,7 +230,7 @@ def test_nobody_else_changes_it(source: str) -> None:
         assert [reason.code for reason in notices(rig)] == ["limit_refused"]
     rig.link.send("hello")
     send_plan(rig, 1, "drive 3 m")
-    assert code(finished(rig, 1)) == "over_max_distance"
+    assert code(finished(rig, 1)) in ("over_max_distance", "over_shared_distance")
 
 
 @pytest.mark.parametrize(
@@ -288,7 +288,11 @@ def test_an_agent_goes_on_only_when_a_person_has_ordered_it() -> None:
     send_plan(rig, 1, "drive 1.5 m")
     assert finished(rig, 1).outcome == "completed"
     send_plan(rig, 2, "drive 1.5 m")
-    assert code(finished(rig, 2)) == "over_max_distance", "another turn of an agent is no other order"
+    refused = finished(rig, 2)
+    assert code(refused) == "over_shared_distance", "another turn of an agent is no other order"
+    assert refused.reason is not None
+    asked_m, left_m = (refused.reason.values[name] for name in ("distance_m", "left_m"))
+    assert (asked_m, left_m) == (pytest.approx(1.5), pytest.approx(0.54, abs=0.03))
     rig.link.close()
 
 

@@ -66,10 +66,13 @@ class Extent(NamedTuple):
 
 
 class Account:
-    """What one text has driven: every run of its turn is booked here."""
+    """What one text has driven: every run of its turn is booked here; where it `is_shared`, those of all turns."""
 
-    def __init__(self, budget: Callable[[], MotionBudget] = MotionBudget) -> None:
+    def __init__(
+        self, budget: Callable[[], MotionBudget] = MotionBudget, *, is_shared: bool = False
+    ) -> None:
         self._budget = budget
+        self._is_shared = is_shared
         self.driven = Extent()
 
     @property
@@ -87,10 +90,16 @@ class Account:
 
     def refusal(self, extent: Extent) -> Reason | None:
         """Return why `extent` may not be driven on top of what has been driven."""
-        total, budget = self.driven.planned.plus(extent), self.budget
+        total, budget, left = self.driven.planned.plus(extent), self.budget, self.left(Extent())
         if self._is_too_far(extent):
+            if self._is_shared:
+                values = {"distance_m": extent.length_m, "left_m": left.length_m, "max_m": budget.distance_m}
+                return Reason("over_shared_distance", values)
             return Reason("over_max_distance", {"distance_m": total.length_m, "max_m": budget.distance_m})
         if total.driving_s > budget.time_s + ROUNDING_S:
+            if self._is_shared and not budget.is_at_ceiling:
+                values = {"driving_s": extent.driving_s, "left_s": left.driving_s, "max_s": budget.time_s}
+                return Reason("over_shared_time", values)
             code = "over_open_loop_time" if budget.is_at_ceiling else "over_max_time"
             return Reason(code, {"driving_s": total.driving_s, "max_s": budget.time_s})
         return None
@@ -230,7 +239,8 @@ class Budgets:
         if priority == Priority.FOREIGN and turn == 0:
             return Account(lambda: self.current)  # a line of text without a sender, and without a turn
         key = (lease, turn if priority >= Priority.PLAN else 0)
-        account = self._accounts.setdefault(key, Account(lambda: self.current))
+        is_shared = priority < Priority.PLAN
+        account = self._accounts.setdefault(key, Account(lambda: self.current, is_shared=is_shared))
         self._accounts.move_to_end(key)
         while len(self._accounts) > KEPT_ACCOUNTS:
             self._accounts.popitem(last=False)

@@ -23,7 +23,9 @@ NONE = "none"
 OPEN_LOOP = "open_loop"
 """The code of the notice that a robot is driven open loop."""
 
-EXCEEDED = frozenset({"over_max_distance", "over_max_time", "over_open_loop_time"})
+EXCEEDED = frozenset(
+    {"over_max_distance", "over_max_time", "over_shared_distance", "over_shared_time", "over_open_loop_time"}
+)
 """The refusals of what is known to exceed its budget."""
 
 
