@@ -96,10 +96,14 @@ def test_an_installed_package_brings_profiles(tmp_path: Path, monkeypatch: pytes
 
 
 @pytest.mark.parametrize("value", ["no_such_package_for_test.profiles", "no_such_package_for_test", "math"])
-def test_a_package_without_its_folder_is_named(value: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_package_without_its_folder_is_named_and_hides_no_other(
+    value: str, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     install(monkeypatch, value)
+    assert "turtlesim" in [entry.name for entry in list_profiles()]
+    assert "entry point 'acme'" in caplog.text
     with pytest.raises(ProfileError, match="entry point 'acme'"):
-        list_profiles()
+        load_profile("acme_cart")
     assert load_profile("turtlesim").name == "turtlesim"
 
 

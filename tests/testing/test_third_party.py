@@ -32,7 +32,14 @@ def package(tmp_path: Path) -> Path:
     )
     (tmp_path / copied[0]).parent.mkdir()
     shutil.copy(ROOT / copied[2], tmp_path / copied[0])
-    project = tomllib.loads(FILES["pyproject.toml"])["project"]
+    told = tomllib.loads(FILES["pyproject.toml"])
+    project, data = told["project"], told["tool"]["setuptools"]["package-data"]
+    assert copied[0] in {
+        str(file.relative_to(tmp_path))
+        for name, patterns in data.items()
+        for pattern in patterns
+        for file in (tmp_path / name.replace(".", "/")).glob(pattern)
+    }, "an installer would leave the profile out"
     metadata = tmp_path / f"{project['name']}-{project['version']}.dist-info"
     metadata.mkdir()
     (metadata / "METADATA").write_text(

@@ -59,11 +59,16 @@ def load_profile(name_or_path: str, extra_dirs: Iterable[Path | str] = ()) -> Ro
 def list_profiles(extra_dirs: Iterable[Path | str] = ()) -> list[ProfileEntry]:
     """All profiles that `load_profile` finds by name, sorted by name; each name once, as it would be loaded.
 
-    Raises ProfileError if an installed package names a profile folder that is not there.
+    An installed package that names a profile folder that is not there is warned of: the others are none the worse.
     """
     found: dict[str, ProfileEntry] = {}
-    for entry in _entries(tuple(extra_dirs)):
-        found.setdefault(entry.name, entry)
+    try:
+        for entry in _entries(tuple(extra_dirs)):
+            found.setdefault(entry.name, entry)
+    except ProfileError as error:
+        import logging  # only then: it is slow to load
+
+        logging.getLogger(__name__).warning("%s", error)
     return [found[name] for name in sorted(found)]
 
 
@@ -90,23 +95,30 @@ def _in_folder(folder: Path, origin: Literal["user", "built-in", "package"]) -> 
 
 
 def _package_folders() -> Iterator[Path]:
-    """The folders of all packages that entry points of the group name (`acme = "acme_robots.profiles"`)."""
+    """The folders of all packages that entry points of the group name (`acme = "acme_robots.profiles"`).
+
+    Raises ProfileError for the first that is none, after the others.
+    """
     from importlib.metadata import entry_points
     from importlib.util import find_spec
 
+    broken = None
     for entry_point in entry_points(group=ENTRY_POINT_GROUP):
         try:
             spec = find_spec(entry_point.value)
         except ImportError:
             spec = None
         if spec is None or not spec.submodule_search_locations:
-            raise ProfileError(
+            broken = broken or ProfileError(
                 f"{entry_point.value!r} is not a package with profiles",
                 where=f"entry point {entry_point.name!r} of {ENTRY_POINT_GROUP}",
                 allowed="a package folder that holds .toml files; or uninstall what brought it",
             )
+            continue
         for location in spec.submodule_search_locations:
             yield Path(location)
+    if broken is not None:
+        raise broken
 
 
 def _read(file: Path) -> RobotProfile:
