@@ -81,7 +81,7 @@ _SWITCH = ((bool,), "True or False")
 _KINDS: dict[str, tuple[tuple[type, ...], str]] = {
     "on": ((str,), "'sim', 'dds', 'ros' or 'rosbridge'"),
     "robot": ((str, Path), "a name or a file"),
-    "world": ((str, Path), "'empty', 'home' or a file"),
+    "world": ((str, Path), "a name that `chatrobot worlds` lists, or a file"),
     "sim": ((str,), "'KEY=VALUE,…'"),
     **dict.fromkeys(("fast", "trace", "open_loop"), _SWITCH),
 }

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -19,9 +18,10 @@ PAGE = ROOT / "docs" / "first-robot.md"
 
 def test_the_page_is_what_happens(tmp_path: Path) -> None:
     text = PAGE.read_text(encoding="utf-8")
-    ((source, target),) = re.findall(r"^    cp (\S+) ~/\.config/chatrobot/(\S+)$", text, re.MULTILINE)
+    ((source, target),) = re.findall(r"^    cp (.+) ~/\.config/chatrobot/(\S+)$", text, re.MULTILINE)
     (tmp_path / target).parent.mkdir(parents=True)
-    shutil.copy(ROOT / source, tmp_path / target)
+    found = source.replace("chatrobot robots", f"{shlex.quote(sys.executable)} -m chatrobot robots")
+    subprocess.run(["sh", "-c", f"cp {found} {shlex.quote(str(tmp_path / target))}"], check=True, timeout=60.0)
     ((command, expected),) = commands(PAGE)
     run = subprocess.run(
         [sys.executable, "-m", "chatrobot", *shlex.split(command)[1:], "--config-dir", str(tmp_path)],
