@@ -44,7 +44,8 @@ KINDS = {
 }  # fmt: skip
 VARIABLES = {
     "CHATROBOT_MODEL": "the language model, as `--model` (which goes before it)",
-    "XDG_RUNTIME_DIR": "where running robots keep their sockets, beside `/run/user/UID` and `/tmp`: [who stops whom](troubleshooting.md#who-stops-whom)",
+    "XDG_RUNTIME_DIR": "where running robots keep their sockets, beside `/run/user/UID` and `/tmp`: "
+    "[who stops whom](troubleshooting.md#who-stops-whom)",
     "CHATROBOT_CONVERSATION": "with `openai-responses`: the conversation on the server to go on with",
     "CHATROBOT_PEERS": "with `--on dds`: addresses to look for robots at, where there is no multicast; comma between",
     "CHATROBOT_DEBUG": "any value: an unexpected error shows its traceback",

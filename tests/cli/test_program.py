@@ -87,6 +87,8 @@ def test_an_edit_that_is_no_python_leaves_the_kept_source_as_it_was(
     done = chatrobot("program", "edit", "waltz", "--file", str(bad))
     assert (done.code, done.out) == (2, "")
     assert f"{bad}: Line 2 is not valid Python: '(' was never closed" in done.err
+    bad.write_text("# nothing is left\n", encoding="utf-8")
+    assert "The program is empty" in chatrobot("program", "edit", "waltz", "--file", str(bad)).err
     assert Library(tmp_path / "config" / "chatrobot").get("waltz").source == source
 
 

@@ -21,7 +21,9 @@ def test_the_page_is_what_happens(tmp_path: Path) -> None:
     ((source, target),) = re.findall(r"^    cp (.+) ~/\.config/chatrobot/(\S+)$", text, re.MULTILINE)
     (tmp_path / target).parent.mkdir(parents=True)
     found = source.replace("chatrobot robots", f"{shlex.quote(sys.executable)} -m chatrobot robots")
-    subprocess.run(["sh", "-c", f"cp {found} {shlex.quote(str(tmp_path / target))}"], check=True, timeout=60.0)
+    subprocess.run(
+        ["sh", "-c", f"cp {found} {shlex.quote(str(tmp_path / target))}"], check=True, timeout=60.0
+    )
     ((command, expected),) = commands(PAGE)
     run = subprocess.run(
         [sys.executable, "-m", "chatrobot", *shlex.split(command)[1:], "--config-dir", str(tmp_path)],

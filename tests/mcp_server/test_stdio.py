@@ -80,6 +80,9 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
 def test_an_emergency_stop_refuses_all_motion_and_no_agent_releases_it(tmp_path: Path) -> None:
     async def task() -> None:
         async with over_stdio(tmp_path) as agent:
+            for wrong in ({"plan": "drive"}, {"plan": "{bad"}, {"text": 5}):
+                assert (await agent.data("instruct", **wrong))["outcome"] == "unclear"
+
             agent.wire.say("emergency stop")
             await anyio.sleep(0.3)
             said_s = time.monotonic()

@@ -26,7 +26,9 @@ def run(args: argparse.Namespace) -> int:
     try:
         fake.start()
     except OSError as error:
-        why = os.strerror(error.errno) if (error.errno or 0) > 0 else error  # asyncio adds the address a second time
+        why = (
+            os.strerror(error.errno) if error.errno and error.errno > 0 else error
+        )  # asyncio adds the address a second time
         problem = f"cannot listen on {args.host}:{args.port}: {why}"
         raise UsageError(problem, allowed="--port 0") from None
     if args.json:

@@ -113,7 +113,7 @@ class RequestLog:
         """Note what rehearsal leaves out of a turn: its result says so, for whoever sees no more than that."""
         if isinstance(event, Rehearsed):
             found = (each.reason for each in event.findings if each.reason.code == "turn_left_out")
-            self._left_out |= {event.turn: reason for reason in found}
+            self._left_out.update((event.turn, reason) for reason in found)
 
     def take(self, turn: int) -> Instruction | None:
         """Return what a turn was about that Motion is done with, None where Motion never had it."""

@@ -31,7 +31,7 @@ from chatrobot.core.events import (
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.dialogue.session import Session
 from chatrobot.mcp_server.record import words_of
-from chatrobot.mcp_server.robot import SOURCE, AgentRobot, Place
+from chatrobot.mcp_server.robot import SOURCE, AgentRobot
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
 
 MOST_WAITING = 10
@@ -151,20 +151,12 @@ class Calls:
         turns = self._robot.turns
         if len(turns.waiting) >= MOST_WAITING:
             return Course("busy")
-        place = Place()
-        turns.waiting.append(place)
-        try:
-            async with turns.lock:
-                if line is not None and line.is_gone:
-                    turns.give_up(place)
-                if self._robot.setbacks != setbacks or place.is_dropped:
-                    return Course("dropped")
-                return await self._see_through(session, say, report, line, rehearse_only=rehearse_only)
-        except asyncio.CancelledError:
-            turns.give_up(place)
-            raise
-        finally:
-            turns.waiting.remove(place)
+        async with turns.taken() as place:
+            if line is not None and line.is_gone:
+                turns.give_up(place)
+            if self._robot.setbacks != setbacks or place.is_dropped:
+                return Course("dropped")
+            return await self._see_through(session, say, report, line, rehearse_only=rehearse_only)
 
     async def _see_through(
         self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 
 from chatrobot.compose import Connection
 from chatrobot.core.errors import ChatRobotError, LinkError
@@ -39,6 +39,20 @@ class Turns:
         self.lock = asyncio.Lock()
         self.waiting: list[Place] = []
         """Those that have been taken, in their order; the first may be under way."""
+
+    @contextlib.asynccontextmanager
+    async def taken(self) -> AsyncIterator[Place]:
+        """Get in line, and wait for the turn: within it nobody else has it."""
+        place = Place()
+        self.waiting.append(place)
+        try:
+            async with self.lock:
+                yield place
+        except asyncio.CancelledError:
+            self.give_up(place)
+            raise
+        finally:
+            self.waiting.remove(place)
 
     def give_up(self, place: Place) -> None:
         """Nobody waits for that one any more: what was to begin where it ends is not begun."""

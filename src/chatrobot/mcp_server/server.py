@@ -100,16 +100,7 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
         mime_type="application/json",
     )
     def state() -> str:
-        connection = robot.connection
-        return strict_json(
-            {
-                "robot": robot_told(connection, is_shared=robot.is_shared) if connection else None,
-                **motion_told(record.telemetry, record.heard_at_s),
-                "connected": connection is not None,
-                "paused": connection is not None and connection.session.is_paused,
-                "happened": record.happened(),
-            }
-        )
+        return strict_json(_state_of(robot))
 
     @server.resource(
         "chatrobot://map",
@@ -133,6 +124,17 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
         result = record.last
         told = {**result.to_json(), "ended_at": pose_told(result.pose)} if result is not None else None
         return strict_json({"result": told, "way": record.way(), "edited_by_person": record.edit})
+
+
+def _state_of(robot: AgentRobot) -> dict[str, Any]:
+    connection, record = robot.connection, robot.record
+    return {
+        "robot": robot_told(connection, is_shared=robot.is_shared) if connection else None,
+        **motion_told(record.telemetry, record.heard_at_s),
+        "connected": connection is not None,
+        "paused": connection is not None and connection.session.is_paused,
+        "happened": record.happened(),
+    }
 
 
 def _add_prompt(server: MCPServer[Any], profile: RobotProfile) -> None:

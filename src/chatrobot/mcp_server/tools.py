@@ -20,7 +20,7 @@ from chatrobot.mcp_server import surroundings
 from chatrobot.mcp_server.calls import Calls, Line, Report
 from chatrobot.mcp_server.program_tool import ACTIONS, ProgramTool
 from chatrobot.mcp_server.robot import AgentRobot
-from chatrobot.mcp_server.told import answer, course_told, error, pose_told, release_refused
+from chatrobot.mcp_server.told import UNCLEAR_PLAN, answer, course_told, error, pose_told, release_refused
 from chatrobot.plan.json_form import plan_from_json
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_release
@@ -35,12 +35,12 @@ LINE = "chatrobot.line"
 """Where an HTTP request keeps its `Line`."""
 
 
-def _as_json(plan: Any) -> Any:
-    """Models send a plan in its JSON form as an object, too."""
-    return json.dumps(plan) if isinstance(plan, dict) else plan
+def _as_text(given: Any) -> str:
+    """Models send a plan in its JSON form as an object, too, and a number as one; null is nothing."""
+    return given if isinstance(given, str) else "" if given is None else json.dumps(given)
 
 
-PlanArgument = Annotated[str, BeforeValidator(_as_json)]
+TextArgument = Annotated[str, BeforeValidator(_as_text)]
 
 
 class Tools:
@@ -53,13 +53,13 @@ class Tools:
         self.leave = self._calls.leave
 
     async def instruct(
-        self, ctx: Context[Any, Any], text: str = "", plan: PlanArgument = ""
+        self, ctx: Context[Any, Any], text: TextArgument = "", plan: TextArgument = ""
     ) -> CallToolResult:
         """Do what is said, or a plan; return once it has ended."""
         return await self._do(ctx, text, plan, rehearse_only=False)
 
     async def rehearse(
-        self, ctx: Context[Any, Any], text: str = "", plan: PlanArgument = ""
+        self, ctx: Context[Any, Any], text: TextArgument = "", plan: TextArgument = ""
     ) -> CallToolResult:
         """Try what `instruct` would do, without moving."""
         return await self._do(ctx, text, plan, rehearse_only=True)
@@ -104,7 +104,13 @@ class Tools:
             try:
                 plan = format_plan(plan_from_json(plan))
             except InputError as wrong:
-                return error(str(wrong), "bad_plan")
+                told = {
+                    "outcome": "unclear",
+                    "reply": str(wrong),
+                    "reason": {"code": "bad_plan"},
+                    "hint": UNCLEAR_PLAN,
+                }
+                return answer(f"unclear: {wrong}\n{UNCLEAR_PLAN}", told)
 
         def say(session: Session) -> int:
             return session.say(text) if text else session.say_plan(plan)

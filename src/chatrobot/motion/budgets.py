@@ -68,9 +68,7 @@ class Extent(NamedTuple):
 class Account:
     """What one text has driven: every run of its turn is booked here; where it `is_shared`, those of all turns."""
 
-    def __init__(
-        self, budget: Callable[[], MotionBudget] = MotionBudget, *, is_shared: bool = False
-    ) -> None:
+    def __init__(self, budget: Callable[[], MotionBudget] = MotionBudget, *, is_shared: bool = False) -> None:
         self._budget = budget
         self._is_shared = is_shared
         self.driven = Extent()

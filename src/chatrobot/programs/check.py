@@ -98,7 +98,8 @@ def no_python(source: str) -> Mark | None:
     if len(source) > MAX_SOURCE_CHARS:
         return _mark("refuse", 0, "program_too_long", characters=len(source), limit=MAX_SOURCE_CHARS)
     try:
-        ast.parse(source)
+        if not ast.parse(source).body:
+            return _mark("refuse", 0, "program_empty")
     except SyntaxError as error:
         line = error.lineno or 0
         return _mark("refuse", line, "program_syntax", line=line, problem=str(error.msg))

@@ -1,7 +1,7 @@
 """The folder where this user's running robots keep their sockets, and where to look for those of others of theirs.
 
-A shell of `su`, `cron` or `docker exec` and a service often lack XDG_RUNTIME_DIR, which a login has: each has to find what
-the other has started.
+A shell of `su`, `cron` or `docker exec` and a service often lack XDG_RUNTIME_DIR, which a login has: each has to find
+what the other has started.
 """
 
 from __future__ import annotations

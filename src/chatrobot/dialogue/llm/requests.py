@@ -47,6 +47,10 @@ class _Turn:
     pins: bool
 
 
+NO_MODEL_HELPS = frozenset({"nothing_to_undo", "nothing_undone", "empty", "place_unusable"})
+"""Codes of what is not done for a reason that no model knows more of."""
+
+
 class ModelRequests:
     """Turns of a conversation that a model plans.
 
@@ -170,7 +174,7 @@ class ModelRequests:
             return meant
         if connects_to_the_robot(text):
             return replace(meant, outcome="answered", reply=say(meant.language, "tutorial_without_model"))
-        has_hinted = self._has_hinted or meant.code in ("nothing_to_undo", "nothing_undone")
+        has_hinted = self._has_hinted or meant.code in NO_MODEL_HELPS
         if self._interpreter == "offline" or has_hinted:
             return meant
         self._has_hinted = True

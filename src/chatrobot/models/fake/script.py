@@ -16,7 +16,9 @@ _HUGE_PIECE = "na " * 1365
 """4 kB: what a huge reply is made of."""
 _COUNTS = frozenset({"times", "cut_off_after", "hang_after", "prompt_tokens", "cached_tokens"})
 _AMOUNTS = frozenset({"tokens_per_s", "first_piece_s", "huge_mb", "retry_after_s"})
-_TEXTS = frozenset({"refusal", "finish", "raw", "content_type", "message", "code", "body", "name", "arguments"})
+_TEXTS = frozenset(
+    {"refusal", "finish", "raw", "content_type", "message", "code", "body", "name", "arguments"}
+)
 _TOP = ("model", "models", "keys", "tokens_per_s", "first_piece_s", "replies", "otherwise")
 
 
