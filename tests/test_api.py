@@ -73,7 +73,10 @@ def test_every_option_is_checked() -> None:
     [
         ({"on": 3}, "on: 3 cannot be used (it takes 'sim', 'dds', 'ros' or 'rosbridge')"),
         ({"robot": 5}, "robot: 5 cannot be used"),
-        ({"world": None}, "world: None cannot be used (it takes 'empty', 'home' or a file)"),
+        (
+            {"world": None},
+            "world: None cannot be used (it takes a name that `chatrobot worlds` lists, or a file)",
+        ),
         ({"sim": 0.03}, "sim: 0.03 cannot be used"),
         ({"fast": "yes"}, "fast: 'yes' cannot be used (it takes True or False)"),
         ({"interpreter": "best"}, "it takes 'auto' or 'offline' or 'model'"),
