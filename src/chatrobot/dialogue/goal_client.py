@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from chatrobot.core.event import Proposal
-from chatrobot.core.events import Event, Finished, Outcome, Rehearsed, Result
+from chatrobot.core.events import Event, Finished, Notice, Outcome, Rehearsed, Result
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.resuming import Resuming
@@ -133,6 +133,8 @@ class RequestLog:
         understanding = self._understanding
         unkept, left_out = understanding.places.take_unkept(), self._left_out.pop(turn, None)
         notes = [unkept] if unkept is not None else []
+        for note in notes:  # programs that read events look for it there
+            self._emit(Notice(turn, note))
         if left_out is not None and outcome == "completed":
             notes.append(left_out)
         reply = " ".join([reply, *(render_reason(note, understanding.language) for note in notes)])

@@ -70,15 +70,13 @@ class Session:
         self._utterances = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn, self.approve)
         self._requests = RequestLog(understanding, self._emit)
-        self.results = self._requests.results
-        """How each turn ended, by its number."""
+        self.results = self._requests.results  # by the number of the turn
         self._llm = ModelRequests(
             model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
             lambda: self._utterances.pauses,
         )  # fmt: skip
-        self.authoring = authoring
-        early = EarlyAnswers(understanding, self._llm, self._requests, authoring)
-        waiting, log, awaits = self._utterances, self._requests, self._proposals.awaits
+        self.authoring, waiting, log = authoring, self._utterances, self._requests
+        early, awaits = EarlyAnswers(understanding, self._llm, log, authoring), self._proposals.awaits
         self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early, awaits)
         self._programs: ProgramRequests | None = None
         self._steered_at_s = -math.inf

@@ -155,7 +155,7 @@ def _program(controller: ChatController, argument: str) -> None:
         controller.tell("program_is_kept", name=argument)
         return
     if argument and argument.casefold() != "list":  # as `chatrobot program list`
-        controller.say_program(argument)
+        controller.say_as_one(lambda: controller.session.say_program(argument), "", argument)
         return
     controller.tell("programs_kept", names=", ".join(names)) if names else controller.tell("no_programs_kept")
 

@@ -76,16 +76,13 @@ class ChatController:
         self.pump = Pump(self.session, self._end)
         self.on_said: list[Callable[[int, str], None]] = []
         self.commands: Sequence[Command] = ()
-        self.latched = False
+        self.latched = self._release_is_due = False
         self.has_parted = False
         """The person said goodbye in words, and was answered."""
-        self._release_is_due = False
         self._clock = clock
         self._pasted = Pasted()
-        self._leaving = False
+        self._leaving = self._said_stopped = self._pauses_again = False
         self._interrupted_s = float("-inf")
-        self._said_stopped = False
-        self._pauses_again = False
         self._order = threading.Lock()  # a line is printed before what it brings about
 
     # --- what a person does ---
@@ -159,17 +156,13 @@ class ChatController:
             self.tell("line_too_long", limit=limit)
         elif text.strip():
             say, shown = lambda: self._approval.say_edited(self.session, text), self.words.say("edited")
-            self._say_as_one(say, shown, text)
+            self.say_as_one(say, shown, text)
         else:
             self.tell("edited_away")
 
     def say_plan(self, plan_text: str, shown: str = "") -> None:
         """Have a plan driven that is there as text; `shown` is what its line looks like, if it has not been shown."""
-        self._say_as_one(lambda: self.session.say_plan(plan_text), shown, plan_text)
-
-    def say_program(self, text: str) -> None:
-        """Ask for a program that does this."""
-        self._say_as_one(lambda: self.session.say_program(text), "", text)
+        self.say_as_one(lambda: self.session.say_plan(plan_text), shown, plan_text)
 
     def drop_behind_command(self) -> None:
         """Drop what was pasted behind a command that has ended without a turn."""
@@ -177,7 +170,8 @@ class ChatController:
             undone = self._pasted.drop() if self._pasted.is_behind_command else ()
         self._tell_undone(undone)
 
-    def _say_as_one(self, say: Callable[[], int], shown: str, text: str) -> None:
+    def say_as_one(self, say: Callable[[], int], shown: str, text: str) -> None:
+        """Say what is one utterance, however many lines it has; it takes the place of what was pasted."""
         with self._order:
             undone = () if self._pasted.is_behind_command else self._pasted.drop()
             self.attempt(lambda: self._note_followed(say(), text))
@@ -203,11 +197,10 @@ class ChatController:
         self._leaving = True
         if self.session.is_paused:
             self.stop("end of input")  # nobody is left to go on with it
-            return
-        if self._approval.turn is not None:
+        elif self._approval.turn is not None:
             self.attempt(lambda: self._approval.answer(self.session, False))
-            return
-        self.tell("finishing")
+        else:
+            self.tell("finishing")
 
     def stop(self, why: str) -> None:
         """Stop the robot now."""
@@ -246,11 +239,8 @@ class ChatController:
 
     def _say_in_order(self, text: str, *, is_pasted: bool = False) -> None:
         self.words.follow(text)
-        self.attempt(lambda: self._say_one(text))
+        self.attempt(lambda: self._note_followed(self.session.say(text), text))
         self._echo(text, anew=is_pasted)
-
-    def _say_one(self, text: str) -> None:
-        self._note_followed(self.session.say(text), text)
 
     def _note_followed(self, turn: int, text: str) -> None:
         self._pasted.follow(turn)
@@ -303,8 +293,8 @@ class ChatController:
         with self._order:
             lines: list[RenderableType] = [shown(line) for line in self.narrator.tell(event)]
             if asks:
-                lines += [way_map(self.motion_view, self.connection.world)]
-                lines += [Text(f"  {self.words.say('ask_approval')}", "bold")]
+                question = Text(f"  {self.words.say('ask_approval')}", "bold")
+                lines += [way_map(self.motion_view, self.connection.world), question]
             is_stop = isinstance(event, Interpreted) and event.by == "reflex" and not self._pauses_again
             if is_stop and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused):
                 self._approval.mute(event.turn)  # what was moving says how it ended
@@ -319,8 +309,8 @@ class ChatController:
                 self.leave()
             if self._leaving and self._has_nothing_to_do:
                 self.display.leave(0)
-        moves = isinstance(event, Telemetry) and self.motion_view.is_moving
-        if moves or isinstance(event, (Started, Result)):
+        kinds = (Started, Result, Telemetry) if self.motion_view.is_moving else (Started, Result)
+        if isinstance(event, kinds):
             self.display.refresh()
 
     def _hear_release(self, by: str) -> None:
@@ -344,13 +334,10 @@ class ChatController:
 
     def _end(self, error: Exception) -> None:
         """Leave, for the pumping thread has ended."""
-        if isinstance(error, LinkError):
-            self.lose(error)
-        else:
+        if not isinstance(error, LinkError):
             self.display.leave(1)
             raise error
-
-    # --- printing ---
+        self.lose(error)
 
     def tell(self, code: str, **values: object) -> None:
         """Print one line of the console's own words."""
@@ -359,6 +346,5 @@ class ChatController:
     def _echo(self, text: str, *, anew: bool = False) -> None:
         """Show what was sent. `anew`: again, because what it was sent with stands between."""
         if anew or not self.display.echoes:
-            shown = text if len(text) <= ECHO_CHARS else f"{text[:ECHO_CHARS]}…"
-            shown = shown.replace("\n", "\n  ")
+            shown = (text if len(text) <= ECHO_CHARS else f"{text[:ECHO_CHARS]}…").replace("\n", "\n  ")
             self.display.print(Text("› ", "bold blue").append(shown, "bold"))
