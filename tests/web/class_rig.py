@@ -9,11 +9,13 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import httpx
+import pytest
+from playwright.sync_api import Browser
 from websockets.sync.client import connect
 
 from chatrobot.wire.local import LocalWire
@@ -116,3 +118,35 @@ def robots_where(teacher: Client, holds: Callable[[list[dict[str, Any]]], bool])
     while not holds(robots := teacher.wait_for("class")["robots"]):
         assert time.monotonic() < ends_s, robots
     return robots
+
+
+@pytest.fixture
+def pupils(shared: RunningClass) -> Iterator[RunningClass]:
+    yield shared
+    shared.hang_up()
+
+
+@pytest.fixture
+def browsing(browser: Browser) -> Iterator[Browser]:
+    """A browser whose pages are closed, whatever became of the test; before `pupils` hangs up, if named after it."""
+    yield browser
+    for context in browser.contexts:
+        context.close()
+
+
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningClass]:
+    running = RunningClass(tmp_path_factory.mktemp("class"))
+    yield running
+    running.close()
+
+
+def drive(pupils: RunningClass, *places: int) -> list[Client]:
+    """Have these pupils drive; return their pages once they move."""
+    began_s = time.monotonic()
+    pages = [pupils.pupil(place) for place in places]
+    for page in pages:
+        page.say("say", text="forward 50 m at 0.3 m/s")
+    for place in places:
+        pupils.heard[place].wait_for_motion(began_s)
+    return pages

@@ -21,43 +21,11 @@ from chatrobot.cli.entry import main
 from chatrobot.programs.library import KeptProgram, Library
 from tests.processes import Heard, wait_until
 from tests.web.browser import browser, find_violations, open_page
-from tests.web.class_rig import RunningClass, robots_where
+from tests.web.class_rig import RunningClass, browsing, drive, pupils, robots_where, shared
 from tests.web.rig import Client
 
-__all__ = ["browser"]
+__all__ = ["browser", "browsing", "pupils", "shared"]
 pytestmark = pytest.mark.realtime
-
-
-@pytest.fixture
-def pupils(shared: RunningClass) -> Iterator[RunningClass]:
-    yield shared
-    shared.hang_up()
-
-
-@pytest.fixture
-def browsing(browser: Browser) -> Iterator[Browser]:
-    """A browser whose pages are closed, whatever became of the test; before `pupils` hangs up, if named after it."""
-    yield browser
-    for context in browser.contexts:
-        context.close()
-
-
-@pytest.fixture(scope="module")
-def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningClass]:
-    running = RunningClass(tmp_path_factory.mktemp("class"))
-    yield running
-    running.close()
-
-
-def drive(pupils: RunningClass, *places: int) -> list[Client]:
-    """Have these pupils drive; return their pages once they move."""
-    began_s = time.monotonic()
-    pages = [pupils.pupil(place) for place in places]
-    for page in pages:
-        page.say("say", text="forward 50 m at 0.3 m/s")
-    for place in places:
-        pupils.heard[place].wait_for_motion(began_s)
-    return pages
 
 
 def test_each_pupil_takes_the_lesson_and_the_teacher_moves_all_on(pupils: RunningClass) -> None:

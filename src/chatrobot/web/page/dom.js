@@ -51,7 +51,7 @@ export function isField(element) {
 
 /** Of the fields, those in which the space bar writes a space. */
 export function isTextField(element) {
-  return isField(element) && !element.matches("input[type=range]");
+  return isField(element) && !element.matches("input[type=range], select");
 }
 
 /** Have this tab keep a text over a reload; a browser that keeps nothing forgets it. */
@@ -78,4 +78,21 @@ export function takeFromTab(key) {
 export function setBanner(element, text) {
   setText(element, text);
   element.hidden = !text;
+}
+
+/** Menus are walked with the arrows, and close with Esc, which stops the robot all the same. */
+export function startMenus() {
+  addEventListener("keydown", (event) => {
+    const menu = event.target.closest(".menu[open]");
+    if (event.key === "Escape") {
+      if (menu) menu.querySelector("summary").focus();
+      for (const one of document.querySelectorAll(".menu[open]")) one.open = false;
+    }
+    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!menu || !by) return;
+    event.preventDefault();
+    const stops = [...menu.querySelectorAll("summary, button:enabled")];
+    const at = stops.indexOf(document.activeElement) + by;
+    stops[(at + stops.length) % stops.length].focus();
+  });
 }

@@ -3,7 +3,7 @@
 import { startCamera } from "./camera.js";
 import { onEditPlan, startChat } from "./chat.js";
 import { connect, on, replay, send, state } from "./connection.js";
-import { byId } from "./dom.js";
+import { byId, startMenus } from "./dom.js";
 import { startGauges } from "./gauges.js";
 import { startLesson } from "./lesson.js";
 import { asksBeforeTaps, startMap } from "./map.js";
@@ -33,23 +33,6 @@ function startLanguage() {
   on("open", () => {
     send({ do: "language", code: language() });
     if (language() !== state.hello.language) send({ do: "history" }); // it took the browser to speak another
-  });
-}
-
-/** Menus are walked with the arrows, and close with Esc, which stops the robot all the same. */
-function startMenus() {
-  addEventListener("keydown", (event) => {
-    const menu = event.target.closest(".menu[open]");
-    if (event.key === "Escape") {
-      if (menu) menu.querySelector("summary").focus();
-      for (const one of document.querySelectorAll(".menu[open]")) one.open = false;
-    }
-    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (!menu || !by) return;
-    event.preventDefault();
-    const stops = [...menu.querySelectorAll("summary, button:enabled")];
-    const at = stops.indexOf(document.activeElement) + by;
-    stops[(at + stops.length) % stops.length].focus();
   });
 }
 

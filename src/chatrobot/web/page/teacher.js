@@ -1,7 +1,7 @@
 /** The teacher's page: all robots of a class; stop one or all, release, look in, hand out a task and the links. */
 
 import { connect, on, send } from "./connection.js";
-import { byId, make, makeButton, restButton, setBanner, setText } from "./dom.js";
+import { byId, make, makeButton, restButton, setBanner, setText, startMenus } from "./dom.js";
 import { showRecordings, startRecordings } from "./recordings.js";
 import { onStop } from "./stop.js";
 import { firstLanguage, language, onLanguage, setLanguage, startLanguageMenu, t } from "./words.js";
@@ -14,6 +14,7 @@ const list = byId("robots");
 const cards = new Map();
 let robots = [];
 let lesson = null;
+let chosen = 2;
 let noticeTimer = 0;
 let saidTimer = 0;
 
@@ -124,12 +125,20 @@ function drawLesson() {
   setText(byId("lesson-title"), lesson.title);
   const done = robots.filter((robot) => robot.lesson && robot.lesson.states.every((one) => one === "passed")).length;
   setText(byId("lesson-state"), t("lesson_state", { count: robots.length, done }));
-  const select = byId("lesson-task");
   const names = lesson.tasks.map((title, at) => t("lesson_task", { number: at + 1, title }));
-  if (names.join() === [...select.options].map((one) => one.text).join()) return;
-  const chosen = Math.max(1, select.selectedIndex);
-  select.replaceChildren(...names.map((name) => make("option", "", name)));
-  select.selectedIndex = Math.min(chosen, names.length - 1);
+  chosen = Math.min(chosen, names.length);
+  setText(byId("lesson-task"), names[chosen - 1]);
+  const menu = byId("lesson-tasks");
+  if (names.join() === [...menu.children].map((one) => one.textContent).join()) return;
+  menu.replaceChildren(...names.map((name, at) => make("li", "", makeButton(name, "small quiet", () => choose(at + 1)))));
+}
+
+/** Not a list of the browser's own: where that is open, Esc and the space bar reach no page, and stop nothing. */
+function choose(number) {
+  chosen = number;
+  byId("lesson-task").parentElement.open = false;
+  byId("lesson-task").focus();
+  drawLesson();
 }
 
 function draw() {
@@ -169,6 +178,7 @@ on("closed", () => setBanner(byId("connection-banner"), t("no_connection")));
 on("denied", (message) => setBanner(byId("connection-banner"), t(message.status === 429 ? "denied_wait" : "denied")));
 onStop(hearStop);
 startLanguageMenu();
+startMenus();
 onLanguage((code) => {
   send({ do: "language", code });
   draw();
@@ -181,8 +191,7 @@ byId("task-form").addEventListener("submit", (event) => {
 });
 byId("lesson-form").addEventListener("submit", (event) => {
   event.preventDefault();
-  const number = byId("lesson-task").selectedIndex + 1;
-  if (send({ do: "move_to", number })) notice(t("lesson_moved", { number }));
+  if (send({ do: "move_to", number: chosen })) notice(t("lesson_moved", { number: chosen }));
 });
 startRecordings(notice);
 await setLanguage(firstLanguage());
