@@ -171,6 +171,23 @@ def test_wrong_tokens_are_slowed_down_and_the_right_one_beside_them_is_not(guard
     assert inside.get("/me").status_code == 200
 
 
+def test_pages_of_an_earlier_server_keep_nobody_out(guarded: WebRig) -> None:
+    headers = {"Origin": guarded.origin}
+    earlier = Access("127.0.0.1", needs_token=True)
+    client = guarded.http()
+    for _ in range(12):
+        token = earlier.issue("pupil", "1")
+        assert client.post("/enter", json={"token": token}, headers=headers).status_code == 401
+    assert client.post("/enter", json={"token": "steers-it"}, headers=headers).status_code == 200
+
+
+def test_a_chosen_token_is_not_guessed_though_it_is_as_long_as_those_that_are_made() -> None:
+    access = Access("127.0.0.1", needs_token=True)
+    access.issue("steerer", token="a" * 32)
+    tried = [access.check_token(f"{n:032}", "10.0.0.1") for n in range(11)]
+    assert [one.status for one in tried if isinstance(one, Refusal)] == [401] * 10 + [429]
+
+
 def test_guesses_are_forgotten_after_a_minute() -> None:
     now = [0.0]
     guesses = Guesses(lambda: now[0])

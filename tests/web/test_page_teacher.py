@@ -34,7 +34,7 @@ def test_the_open_list_of_tasks_keeps_no_stop_from_the_robots(
     pupils.heard[0].wait_for_zero(said_s)
 
 
-def test_the_task_that_was_chosen_is_where_all_are_moved(pupils: RunningClass, teacher: Page) -> None:
+def test_the_task_that_was_chosen_is_where_all_are_moved(teacher: Page) -> None:
     teacher.locator("#lesson-task").press("Enter")
     teacher.locator("#lesson-tasks").get_by_role("button", name="3 ", exact=False).first.press("Enter")
     expect(teacher.locator("#lesson-task")).to_be_focused()

@@ -18,6 +18,7 @@ Role = Literal["steerer", "watcher", "pupil", "teacher"]
 Scope = Mapping[str, Any]
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "[::1]"})
 TOKEN_BYTES = 24
+_MADE_CHARS = len(secrets.token_urlsafe(TOKEN_BYTES))
 STOP_BUTTON, EMERGENCY_BUTTON = "the Stop button", "the Emergency stop button"
 _DEFAULT_PORTS = {"http": 80, "https": 443}
 
@@ -85,8 +86,8 @@ class Access:
         self.port = self.stop_port = 0
         self.guesses = Guesses()
         self._passes: dict[str, Pass] = {}
-        self._revoked: set[str] = set()
-        """Tokens that were good: a page that still has one guesses nothing."""
+        self._has_chosen_alike = False
+        """Somebody chose a token that is as long as those that are made here."""
         self._admitted: set[tuple[str, str]] = set()
         """Address and token of those who were let in: they need not wait because somebody beside them guesses."""
 
@@ -94,13 +95,13 @@ class Access:
 
     def issue(self, role: Role, room: str = "", token: str = "") -> str:
         """Return a new token for that role and robot, or make `token` it."""
+        self._has_chosen_alike |= len(token) == _MADE_CHARS
         token = token or secrets.token_urlsafe(TOKEN_BYTES)
         self._passes = {**self._passes, token: Pass(role, room, token=token)}
         return token
 
     def revoke(self, token: str) -> None:
         """Let nobody in with that token any more; its connections are closed by those who hold them."""
-        self._revoked |= {token} & self._passes.keys()
         self._passes = {known: one for known, one in self._passes.items() if known != token}
         self._admitted = {one for one in self._admitted if one[1] != token}
 
@@ -157,9 +158,16 @@ class Access:
         if found is not None:
             self._admitted.add((address, token))
             return Pass(found.role, found.room, is_loopback_address(address), found.token)
-        if token not in self._revoked:
+        if self._may_be_guessed(token):
             self.guesses.note_wrong(address)
         return Refusal(401, "this token is not valid (any more): ask for a new link")
+
+    def _may_be_guessed(self, token: str) -> bool:
+        """Pages left open over an end of the server bring a token that it, or a teacher, has ended: 192 random bits.
+
+        Nobody guesses one of those; were they counted, the old pages of a class would lock its teacher out.
+        """
+        return len(token) != _MADE_CHARS or self._has_chosen_alike
 
     def cookie_name(self, seat: str) -> str:
         """Return the name of a seat's cookie. Cookies know no ports: two servers on one machine need two names."""
