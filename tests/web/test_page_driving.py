@@ -276,7 +276,7 @@ def test_an_obstacle_is_put_dragged_and_taken_away_by_whoever_steers(page: Page,
     (_, put), *_ = rig.session.log
     x, y, radius = put["circle"]
     assert (put["add"], radius) == ("Obstacle 1", 0.2)
-    expect(button).to_have_attribute("aria-pressed", "false")
+    expect(button).to_have_attribute("aria-pressed", "true")
     rig.tell(ObstacleChanged(0, "Obstacle 1", Circle(x, y, radius).outline()))
     box = floor.bounding_box()
     assert box is not None
@@ -290,10 +290,17 @@ def test_an_obstacle_is_put_dragged_and_taken_away_by_whoever_steers(page: Page,
     assert moved["add"] == "Obstacle 1"
     assert moved["circle"][0] > x + 0.1
     assert moved["circle"][1:] == pytest.approx([y, radius], abs=0.01)
-    button.click()
     floor.click(position={"x": 300, "y": 300})
     wait_until(lambda: len(rig.session.log) == 3)
     assert rig.session.log[2] == ("obstacle", {"remove": "Obstacle 1"})
+    button.click()
+    page.mouse.move(box["x"] + 300, box["y"] + 300)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 340, box["y"] + 300, steps=4)
+    page.mouse.up()
+    floor.click(position={"x": 340, "y": 300})
+    wait_until(lambda: len(rig.session.log) == 4)
+    assert rig.session.log[3][0] == "say_edited_plan", "a drag moves the map again, and a tap sends the robot"
     button.click()
     page.get_by_role("button", name="Set heading").click()
     expect(button).to_have_attribute("aria-pressed", "false")

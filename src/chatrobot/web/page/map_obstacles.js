@@ -1,6 +1,6 @@
 /**
- * Obstacles that a person puts into the simulation. With "Obstacle" a tap puts one there, or takes away the one that
- * was tapped; without, a drag moves one that was put there. Enter does at the target what a tap does.
+ * Obstacles that a person puts into the simulation. While "Obstacle" is pressed a tap puts one there, or takes away the
+ * one that was tapped, and a drag moves one; else the map is as without any. Enter does at the target what a tap does.
  */
 
 import { on, send, state } from "./connection.js";
@@ -51,14 +51,13 @@ export function isPutting() {
 /** Put an obstacle at this point of the floor, or take away the one that is there. */
 export function putAt(spot) {
   const there = under(spot);
-  setPressed(button, false);
   if (there) send({ do: "obstacle", name: there.name });
   else put(freeName(), spot, RADIUS_M);
 }
 
 /** Take hold of the obstacle at this point, if one was put there. */
 export function grab(spot) {
-  const there = mayPut() && !isPressed(button) ? under(spot) : null;
+  const there = isPutting() ? under(spot) : null;
   grabbed = there ? { ...there, spot, dx: there.x - spot[0], dy: there.y - spot[1] } : null;
   return Boolean(grabbed);
 }

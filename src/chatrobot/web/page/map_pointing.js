@@ -53,9 +53,9 @@ export function startPointing({ view, known, redraw, go, release }) {
       start = { place, isGrabbing: true, hasMoved: false };
       return;
     }
-    start = { place, isAiming: isPressed(byId("heading")) || event.shiftKey, hasMoved: false };
+    start = { place, isAiming: !isPutting() && (isPressed(byId("heading")) || event.shiftKey), hasMoved: false };
     if (start.isAiming) point(place, null);
-    else timer = setTimeout(() => {
+    else if (!isPutting()) timer = setTimeout(() => {
       if (!start || start.hasMoved) return;
       start.isAiming = true;
       point(place, null);
@@ -94,13 +94,12 @@ export function startPointing({ view, known, redraw, go, release }) {
   function up(event) {
     clearTimeout(timer);
     if (!fingers.delete(event.pointerId) || !start) return;
-    if (start.isGrabbing) {
-      drop(start.hasMoved);
-      redraw();
-    } else if (!start.hasMoved && isPutting()) {
+    drop(start.hasMoved);
+    if (!start.hasMoved && isPutting()) {
       known.target = null;
       putAt(view.toFloor(...start.place));
-    } else if (start.isAiming) {
+    } else if (start.isGrabbing) redraw();
+    else if (start.isAiming) {
       setPressed(byId("heading"), false);
       go();
     } else if (!start.hasMoved) {
