@@ -8,10 +8,11 @@ import math
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from chatrobot.core.events import Paused, Started, Telemetry
+from chatrobot.core.events import Paused, Result, Started, Telemetry
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.sim.shapes import Circle
+from chatrobot.web.words import told
 from tests.processes import wait_until
 from tests.web.browser import DESKTOP, PHONE, browser, open_page, page, rehearse
 from tests.web.rig import WebRig
@@ -178,22 +179,28 @@ def test_a_tap_on_the_floor_asks_for_the_way_there(page: Page, rig: WebRig) -> N
     assert "facing" not in plan_text
 
 
-def test_on_a_phone_the_question_about_a_tap_is_seen_whatever_panel_was(
-    browser: Browser, rig: WebRig
+@pytest.mark.parametrize("size", [PHONE, (640, 360), (320, 568)])
+def test_on_a_phone_the_question_about_a_tap_is_seen_whatever_panel_or_lesson_was(
+    browser: Browser, rig: WebRig, size: tuple[int, int]
 ) -> None:
-    page = open_page(browser, rig.origin, PHONE)
+    page = open_page(browser, rig.origin, size)
+    lines = [f"Line {number} of the task." for number in range(6)]
+    rig.room.pin("lesson", told("lesson", over=False, head="Task 1", lines=lines, about=[]))
     page.locator(".tabs [data-tab=drive]").click()
-    page.locator("#floor").click(position={"x": 200, "y": 150})
+    page.locator("#floor").click(position={"x": 200, "y": 110})
     wait_until(lambda: bool(rig.session.log))
     rehearse(rig)
     do_it = page.get_by_role("log", name="What was said").get_by_role("button", name="Do it")
-    expect(do_it).to_be_in_viewport()
+    expect(do_it).to_be_in_viewport(ratio=1)
     page.locator(".tabs [data-tab=plan]").click()
-    expect(page.locator(".tabs .asks")).to_have_text("Chat")
+    expect(page.locator(".asks .tabs [data-tab=chat]")).to_have_text("Chat")
     page.locator("#plan-run").click()
     rig.session.wait_for("approve", 1, True)
     rig.tell(Started(1))
-    expect(page.locator(".tabs .asks")).to_have_count(0)
+    expect(page.locator(".asks .tabs [data-tab=chat]")).to_have_count(0)
+    page.locator(".tabs [data-tab=chat]").click()
+    rig.tell(Result(1, "completed", "Done: go to."))
+    expect(page.get_by_text("Done: go to.")).to_be_in_viewport(ratio=1)
     page.context.close()
 
 

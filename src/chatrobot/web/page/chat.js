@@ -60,7 +60,7 @@ function forgetAll() {
   entries.clear();
   list.replaceChildren();
   asking = null;
-  markTab();
+  markAsking();
 }
 
 /** Do `act` and keep the newest in sight, unless a person has scrolled up to read. */
@@ -81,18 +81,18 @@ function ask(entry, buttons) {
   if (asking && asking !== entry) asking.buttons.replaceChildren();
   asking = entry;
   entry.buttons.replaceChildren(...buttons);
-  markTab();
+  markAsking();
 }
 
-/** Where another panel is seen, its tab says that something waits for an answer. */
-function markTab() {
-  document.querySelector(".tabs [data-tab=chat]").classList.toggle("asks", asking !== null);
+/** Where another panel is seen, its tab says that something waits for an answer; a lesson makes room for the question. */
+function markAsking() {
+  document.body.classList.toggle("asks", asking !== null);
 }
 
 function unask(entry) {
   entry.buttons.replaceChildren();
   if (asking === entry) asking = null;
-  markTab();
+  markAsking();
 }
 
 function answer(entry, message) {
