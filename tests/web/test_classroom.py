@@ -47,6 +47,34 @@ def test_each_pupil_takes_the_lesson_and_the_teacher_moves_all_on(pupils: Runnin
     teacher.say("move_to", number=2)
     robots = robots_where(teacher, lambda robots: robots[0]["lesson"]["number"] == 2)
     assert [robot["lesson"]["states"][0] for robot in robots] == ["skipped", "skipped", "passed"]
+    one.say("say", text="turn left by a bit more than 60 degrees")
+    one.say("say", text="forward 30 cm")
+    one.wait_for("verdict")
+    for command in ("/task", "/again"):
+        one.say("say", text=command)
+    assert one.wait_for("note")["text"].startswith("Task 2 of 4: ")
+    one.wait_for("note", text="The robot drives back to where the task begins.")
+    one.wait_for("verdict", text="The task begins now.")
+    for _ in range(3):
+        one.say("say", text="/skip")
+    for command in ("/task", "/hint", "/skip", "/again"):
+        one.say("say", text=command)
+        while "Lesson not passed: 1 of 4 tasks." not in one.wait_for("note")["text"]:
+            pass
+    told = _told_in_the_report_of(pupils, 2)
+    heard = {text for kind, text in told if kind == "gesagt"}
+    assert {"forward 70 cm", "/again", "/skip"} <= heard
+    assert not any(text.startswith("go to ") for text in heard), "nobody said that"
+    assert {passed, "Task 3 is left out."} <= {text for kind, text in told if kind == "Hinweis"}
+
+
+def _told_in_the_report_of(pupils: RunningClass, place: int) -> set[tuple[str, str]]:
+    time.sleep(1.0)  # it has been written
+    http = pupils.http(pupils.token)
+    name = http.get("/recordings").json()["files"][place]["name"]
+    page = http.get(f"/recordings/{name.replace('mcap', 'html')}?language=de").text
+    assert '<html lang="de"' in page
+    return set(re.findall(r'class="kind">(.*?)</span></td>\s*<td class="text" dir="auto">(.*?)</td>', page))
 
 
 def test_each_pupil_drives_a_robot_of_their_own_and_the_teacher_sees_which(pupils: RunningClass) -> None:

@@ -26,7 +26,7 @@ from starlette.routing import Route
 from chatrobot.core.errors import ChatRobotError
 from chatrobot.core.events import Event, Notice
 from chatrobot.core.reason import Reason
-from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.interpretation import language_of_tags
 from chatrobot.language.phrases import render_reason
 from chatrobot.recording.about import about_of
 from chatrobot.recording.recorder import LOOK_OF_MANY_S, Recorder, WritingThread
@@ -299,7 +299,7 @@ class _Files:
         if found is None or name.suffix not in _TYPES:
             return _no_such_file()
         path, is_written = found
-        language: LanguageCode = "zh" if request.query_params.get("language") == "zh" else "en"
+        language = language_of_tags(request.query_params.get("language", ""))
         try:
             async with self._turn:
                 body = await asyncio.to_thread(

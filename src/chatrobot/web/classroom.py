@@ -158,7 +158,7 @@ class Classroom:
     def _begin_lesson(self, sheet: Sheet, robot: PupilsRobot, wires: RobotWires) -> None:
         profile, name = robot.connection.profile, robot.name
         run, up_to_date = LessonRun(sheet, profile.footprint), partial(wires.bring_up_to_date, name)
-        lesson = RoomLesson(run, self.rooms[name], profile.title, up_to_date)
+        lesson = RoomLesson(run, self.rooms[name], profile.title, up_to_date, self.seats[name].record)
         wires.subscribe(name, wires.truth_topic, Odometry, lesson.hear_truth)
         lesson.open(robot.connection.session)
         self.seats[name].lesson = lesson

@@ -9,8 +9,11 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from chatrobot.core.events import Event, Result, TruePose
+from chatrobot.core.events import Event, Notice, Result, TruePose
+from chatrobot.core.reason import Reason
 from chatrobot.dialogue.session import Session
+from chatrobot.language.data_files import REPLY_LANGUAGES
+from chatrobot.language.interpretation import LanguageCode
 from chatrobot.lessons.run import LessonRun, Verdict
 from chatrobot.lessons.words import (
     describe_end,
@@ -22,7 +25,7 @@ from chatrobot.lessons.words import (
 )
 from chatrobot.web.outbox import Face, Message
 from chatrobot.web.room import Room
-from chatrobot.web.words import noted
+from chatrobot.web.words import web_words
 from chatrobot.wire.messages import Odometry
 
 COMMANDS = ("/task", "/hint", "/again", "/skip")
@@ -34,6 +37,7 @@ class RoomLesson:
 
     Args:
         bring_up_to_date: has every true pose heard that has come by now: a verdict needs the last one.
+        record: keeps what the lesson says, beside what the session does.
     """
 
     def __init__(
@@ -42,18 +46,22 @@ class RoomLesson:
         room: Room,
         robot_title: str,
         bring_up_to_date: Callable[[], None] = lambda: None,
+        record: Callable[[Event], None] = lambda _: None,
     ) -> None:
         self.run = run
         self._room, self._robot_title, self._bring_up_to_date = room, robot_title, bring_up_to_date
+        self._record = record
+        self._is_returning = False
         self._said: deque[tuple[int, str]] = deque()
         self._last: Verdict | None = None
 
     def open(self, session: Session) -> None:
         """Begin: show the first task."""
-        self._session, told_before = session, session.on_said
+        self._session, self._note_said = session, session.on_said
 
         def on_said(turn: int, text: str) -> None:
-            told_before(turn, text)
+            if not self._is_returning:  # nobody said the plan of the way back
+                self._note_said(turn, text)
             self._said.append((turn, text))
 
         session.on_said = on_said
@@ -77,6 +85,7 @@ class RoomLesson:
         if verdict is not None:
             self._last = verdict
             self._room.tell_people(Message(lambda language: _verdict_facts(verdict, language)))
+            self._keep(lambda language: describe_verdict(verdict, language))
             self._show()
 
     def _show(self) -> None:
@@ -112,24 +121,38 @@ class RoomLesson:
         if command not in COMMANDS:
             return False
         self._room.note_said(0, text, face.id, face.name)
+        self._note_said(0, text)
         task, number = self.run.task, self.run.number
-        if command == "/hint":
+        if task is None or command == "/task":
+            texts = {
+                each: self._where(each) for each in REPLY_LANGUAGES
+            }  # as it is now, whoever reads it later
+            self._tell(texts.__getitem__)
+        elif command == "/hint":
             self.run.hint()
             self._tell(lambda language: describe_hint(task, language))
-        elif command == "/skip" and task is not None:
+        elif command == "/skip":
             self.run.skip()
             self._tell(lambda language: say(language, "skipped", number=number))
-        elif command == "/again" and task is not None:
+        else:
             self._begin_anew(face)
         self._show()
         return True
+
+    def _where(self, language: str) -> str:
+        """Say what is to be done; at the end of the lesson what became of it."""
+        return "\n".join(describe_task(self.run, language) or describe_end(self.run, language))
 
     def _begin_anew(self, face: Face) -> None:
         """Have the robot drive to where the task begins."""
 
         def drive(plan_text: str) -> int:
             self._tell(lambda language: say(language, "returning"))
-            return self._room.drive(face, plan_text)
+            self._is_returning = True
+            try:
+                return self._room.drive(face, plan_text)
+            finally:
+                self._is_returning = False
 
         if self.run.again(drive):
             self._tell(lambda language: say(language, "task_begins"))
@@ -140,11 +163,15 @@ class RoomLesson:
         while self.run.task is not None and self.run.number < number:
             self.run.skip()
         if self.run.number != was:
-            self._room.tell_people(noted("teacher_moved", number=number))
+            self._tell(lambda language: web_words(language, "teacher_moved", number=number))
             self._show()
 
-    def _tell(self, text: Callable[[str], str]) -> None:
+    def _tell(self, text: Callable[[LanguageCode], str]) -> None:
         self._room.tell_people(Message(lambda language: {"is": "note", "text": text(language)}))
+        self._keep(text)
+
+    def _keep(self, text: Callable[[LanguageCode], str]) -> None:
+        self._record(Notice(0, Reason("lesson"), text(self._session.understanding.language)))
 
 
 def _verdict_facts(verdict: Verdict, language: str) -> dict[str, Any]:
