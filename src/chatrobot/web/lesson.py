@@ -171,7 +171,8 @@ class RoomLesson:
         self._keep(text)
 
     def _keep(self, text: Callable[[LanguageCode], str]) -> None:
-        self._record(Notice(0, Reason("lesson"), text(self._session.understanding.language)))
+        said = text(self._session.understanding.language)
+        self._record(Notice(0, Reason("lesson", {"text": said}), said))
 
 
 def _verdict_facts(verdict: Verdict, language: str) -> dict[str, Any]:
