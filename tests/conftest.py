@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
+import shutil
 import signal
+import tempfile
 
 import pytest
 
@@ -25,6 +28,10 @@ for number in (signal.SIGHUP, signal.SIGINT):
 
 # Hundreds of tests start a process of ours; where none may keep its bytecode, each compiles all of it anew.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+# No robot of a test may be found by a stop, or by an agent, of another one, or of whoever works on this machine.
+os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="robots-")
+atexit.register(shutil.rmtree, os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
 
 # Nine thousand collected tests are no garbage: looked through again and again, they took a twelfth of the whole time.
 gc.disable()

@@ -38,6 +38,10 @@ def test_what_was_started_without_the_variable_is_found_with_it(
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     assert module.runtime_dir().parent == tmp_path
     assert (stop_socket_paths(), agent_socket_paths()) == ([stop], [agents])
+    own = agent_socket_path(8)
+    own.touch()
+    os.utime(own, (0, 0))
+    assert agent_socket_paths() == [own, agents], "an agent goes to the console beside it, however old"
 
 
 def test_a_folder_of_somebody_else_is_neither_used_nor_looked_into(

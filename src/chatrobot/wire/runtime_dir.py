@@ -64,12 +64,12 @@ def agent_socket_path(pid: int) -> Path:
 
 
 def agent_socket_paths() -> list[Path]:
-    """Those of all that run, or died without tidying up; the newest first."""
-    found = []
+    """Those of all that run, or died without tidying up: those of our own folder first, and in each the newest."""
+    found, folders = [], [str(folder) for folder in runtime_dirs()]
     for path in _sockets("agents-*.mcp"):
         with contextlib.suppress(OSError):  # it is just leaving
-            found.append((path.stat().st_mtime, path))
-    return [path for _, path in sorted(found, reverse=True)]
+            found.append((folders.index(str(path.parent)), -path.stat().st_mtime, path))
+    return [path for _, _, path in sorted(found)]
 
 
 def stop_socket_paths() -> list[Path]:
