@@ -43,8 +43,10 @@ def test_what_cannot_be_done_is_a_value(text: str, outcome: str) -> None:
 def test_a_result_says_what_was_left_out_and_what_could_not_be_kept() -> None:
     with fast(robot="wheeltec_mini_akm", config_dir="/proc/none") as robot:
         turned, kept = robot.do("forward 50 cm, then turn left"), robot.do("remember this place as base")
-    assert turned.reply.endswith("This robot cannot turn on the spot, so the last turn is left out.")
-    assert "for this session only" in kept.reply
+    assert turned.reason is not None
+    assert kept.reason is not None
+    assert (turned.outcome, turned.reason.code) == ("completed", "turn_left_out")
+    assert (kept.outcome, kept.reason.code) == ("answered", "places_not_kept")
 
 
 def test_a_plan_runs_as_an_object_or_as_text() -> None:

@@ -256,6 +256,10 @@ from tests.language.test_usual import done
         ),
         (("Right, that's done. go back 1 m",), "drive 1 m back"),
         (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
+        (("a car is coming at you, go back 1 m",), "drive 1 m back"),
+        (("nobody move. robot, forward 1 m",), "drive 1 m"),
+        (("drive 2 m", "shave 20 cm off"), "drive 0.2 m back"),
+        (("turn right 60", "back to straight"), "face 0 deg"),
         (("Turn right 45 degrees.", "Hm. Bit over. Take 10 off."), "turn left 10 deg"),
         (("turn right 90", "now drive 2 yards that way"), "drive 1.8288 m"),
         (

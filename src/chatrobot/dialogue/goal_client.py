@@ -12,7 +12,6 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.language.phrases import render_reason
 from chatrobot.link.motion_link import MotionLink
 
 
@@ -132,12 +131,11 @@ class RequestLog:
         self.take(turn)
         understanding = self._understanding
         unkept, left_out = understanding.places.take_unkept(), self._left_out.pop(turn, None)
-        notes = [unkept] if unkept is not None else []
-        for note in notes:  # programs that read events look for it there
-            self._emit(Notice(turn, note))
-        if left_out is not None and outcome == "completed":
-            notes.append(left_out)
-        reply = " ".join([reply, *(render_reason(note, understanding.language) for note in notes)])
+        if unkept is not None:
+            self._emit(Notice(turn, unkept))
+        reason = reason or (finished.reason if finished is not None else None)
+        if outcome in ("completed", "answered"):
+            reason = reason or left_out or unkept
         if finished is None:
             measured = understanding.is_measured
             result = Result(
@@ -151,7 +149,6 @@ class RequestLog:
                 finished.duration_s,
                 finished.paused_s,
             )
-            why = reason or finished.reason
-            result = Result(turn, outcome, reply, *moved, why, proposal, finished.measured)
+            result = Result(turn, outcome, reply, *moved, reason, proposal, finished.measured)
         self.results[turn] = result
         self._emit(result)

@@ -151,8 +151,9 @@ def _end_told(course: Course, result: Result, data: dict[str, Any], language: st
     outcome = result.outcome
     hints = _hints(course, result)
     data = {"outcome": outcome, "reply": result.reply, **data}
+    why = render_reason(result.reason, language) if result.reason is not None else ""
     if result.reason is not None:
-        data["reason"] = {**result.reason.to_json(), "text": render_reason(result.reason, language)}
+        data["reason"] = {**result.reason.to_json(), "text": why}
     data["measured"] = result.measured
     if result.measured:
         data["pose"] = pose_told(result.pose)
@@ -169,6 +170,7 @@ def _end_told(course: Course, result: Result, data: dict[str, Any], language: st
         data["hint"] = " ".join(hints)
     lines = [
         f"{outcome}: {result.reply}",
+        why if outcome == "completed" else "",  # what was left out, say: else the reply tells it
         *_plan_lines(course),
         *_measured_lines(course, result, language),
         *_faults(course),
