@@ -31,6 +31,7 @@ from chatrobot.core.errors import UsageError
             "does not take --png x.png (see chatrobot world draw --help)",
         ),
         (["do", "hi", "--record", "hi.txt"], "hi.txt: a recording's name ends in .mcap"),
+        (["--web", "--class", "3"], "does not take --class 3 (an option of a command stands behind it"),
         (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
     ],
 )

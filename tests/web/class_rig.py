@@ -102,7 +102,7 @@ class RunningClass(TalkingProcess):
         """Leave nobody at any page, and every robot standing."""
         self._dialled.close()
         teacher = self.teacher()
-        robots_where(teacher, lambda robots: not any(one["pages"] or one["moving"] for one in robots))
+        robots_where(teacher, _are_left)
         teacher.socket.close()
 
     def close(self) -> None:
@@ -110,6 +110,10 @@ class RunningClass(TalkingProcess):
         self._opened.close()
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(PATIENCE_S)
+
+
+def _are_left(robots: list[dict[str, Any]]) -> bool:
+    return not any(one["pages"] or one["is_looked_at"] or one["moving"] for one in robots)
 
 
 def robots_where(teacher: Client, holds: Callable[[list[dict[str, Any]]], bool]) -> list[dict[str, Any]]:

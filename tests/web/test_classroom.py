@@ -310,6 +310,7 @@ def test_a_teacher_who_looks_in_first_leaves_the_steering_to_the_pupil(pupils: R
     [
         (("--class", "3", "--on", "dds"), "--class"),
         (("--class", "31"), "--class"),
+        (("--class", "0"), "0 is no class (2 to 30 pupils)"),
         (("--class", "3", "--record", "a.mcap"), "--record"),
         (("--class", "3", "--lesson", "first-move"), "did you mean first-moves?"),
         (("--lesson", "first-moves", "--world", "home"), "--world"),

@@ -68,6 +68,8 @@ def test_an_edited_plan_goes_in_the_place_of_the_one_that_waits(page: Page, rig:
 
 def test_a_plan_that_cannot_be_read_can_be_mended(page: Page, rig: WebRig) -> None:
     page.get_by_role("button", name="Write a plan").click()
+    page.locator("#plan-run").click()
+    expect(page.locator("#notice-banner")).to_contain_text("The plan is empty")
     page.get_by_label("The plan, one step a line").fill("turn left 90 deg\nfly 3 m")
     page.get_by_role("button", name="Rehearse and run").click()
     rig.session.wait_for("say_plan", "turn left 90 deg\nfly 3 m")

@@ -40,3 +40,58 @@ def test_the_task_that_was_chosen_is_where_all_are_moved(teacher: Page) -> None:
     expect(teacher.locator("#lesson-task")).to_be_focused()
     teacher.get_by_role("button", name="Move", exact=True).click()
     expect(teacher.locator(".seat .lesson").first).to_contain_text("Task 3 of 4")
+
+
+def test_a_teacher_who_looks_in_is_no_pupil_at_the_page(pupils: RunningClass, teacher: Page) -> None:
+    looks = pupils.dial("/ws?room=2", pupils.token)
+    expect(teacher.locator(".seat .who").nth(1)).to_have_text("Nobody is at the page · a teacher looks in")
+    looks.socket.close()
+    pupils.pupil(1)
+    expect(teacher.locator(".seat .who").nth(1)).to_have_text("Pupil's page open: 1")
+
+
+def test_what_a_card_says_and_asks_moves_no_button(pupils: RunningClass, teacher: Page) -> None:
+    buttons = teacher.locator("main :is(button, a):visible")
+    before = [one.bounding_box() for one in buttons.all()]
+    one = pupils.pupil(0)
+    one.say(
+        "say", text="go to the moon, then to the kitchen of my aunt, and tell everybody there what you saw"
+    )
+    expect(teacher.locator(".seat .doing").first).not_to_be_empty()
+    one.say("emergency_stop")
+    teacher.get_by_role("button", name="New link: Pupil 3").click()
+    expect(teacher.get_by_role("button", name="End the old link?: Pupil 3")).to_be_visible()
+    expect(teacher.get_by_role("button", name="Release emergency stop: Pupil 1")).to_be_visible()
+    after = [one.bounding_box() for one in buttons.all()]
+    assert [box for box in before if box not in after] == []
+    teacher.get_by_role("button", name="Release emergency stop: Pupil 1").click()
+    expect(teacher.locator(".seat .chip").first).to_have_text("Standing")
+
+
+def test_a_press_on_a_recording_that_is_listed_anew_meanwhile_counts(teacher: Page) -> None:
+    teacher.get_by_text("Recordings of this class").click()
+    button = teacher.get_by_role("button", name="Delete: Pupil 1")
+    button.hover()
+    teacher.mouse.down()
+    with teacher.expect_response("**/recordings"):
+        pass
+    teacher.mouse.up()
+    expect(teacher.get_by_role("button", name="Really delete?: Pupil 1")).to_be_focused()
+
+
+def test_an_empty_task_is_not_handed_out_and_the_teacher_is_told(teacher: Page) -> None:
+    teacher.get_by_label("Task for everybody").fill("  ")
+    teacher.get_by_role("button", name="Hand out").click()
+    expect(teacher.locator("#notice-banner")).to_have_text(
+        "There is no task yet: write it, then hand it out."
+    )
+
+
+def test_a_link_is_copied_where_the_page_is_not_secure(pupils: RunningClass, teacher: Page) -> None:
+    teacher.evaluate("Object.defineProperty(navigator, 'clipboard', {value: undefined})")
+    teacher.get_by_role("button", name="Copy link: Pupil 2").click()
+    expect(teacher.locator("#notice-banner")).to_have_text("The link of pupil 2 is copied.")
+    teacher.get_by_label("Task for everybody").press("Control+V")
+    expect(teacher.get_by_label("Task for everybody")).to_have_value(
+        f"{pupils.origin}/#{pupils.pupils_tokens()[1]}"
+    )

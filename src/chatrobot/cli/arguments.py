@@ -91,7 +91,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     arguments, ros_args = split_ros_args(joined(arguments))
     word = _first_word(arguments)
     if word is not None and word not in COMMANDS:
-        raise no_such_command(word, COMMANDS)
+        raise no_such_command(word, COMMANDS, arguments)
     parsed = all_known(*commands_parser().parse_known_args(list(arguments)))
     parsed.program_args, parsed.ros_args = program_args, ros_args
     _check_texts(parsed)
@@ -279,7 +279,7 @@ def _web(parser: argparse.ArgumentParser) -> None:
     token = "what the link has to bring that may steer (default: a new one where one is needed)"
     _add(parser, "--token", default="", help=token)
     pupils = "a class: so many pupils, 2 to 30, each with a simulated robot of their own; prints the teacher's link"
-    _add(parser, "--class", dest="pupils", type=int, default=0, metavar="N", help=pupils)
+    _add(parser, "--class", dest="pupils", type=int, default=None, metavar="N", help=pupils)
     lesson = "a lesson, or a sheet of your own: the page, or each pupil's, shows its tasks and judges what was done"
     _add(parser, "--lesson", "lessons", default="", metavar="FILE|NAME", help=lesson)
     _add(parser, "--no-open", action="store_true", help="do not open the page in a browser")

@@ -8,6 +8,7 @@ from typing import Any
 
 from chatrobot.cli.options import add_options, offer
 from chatrobot.core.errors import UsageError
+from chatrobot.options import OPTIONS
 
 Actions = dict[str, tuple[str, dict[str, str]]]
 """The name of each action, what it does, and its arguments; one in brackets may be left out."""
@@ -60,10 +61,17 @@ def actions_of(
 _FAMILIES = {"world": WORLD_ACTIONS, "program": PROGRAM_ACTIONS}
 
 
-def no_such_command(word: str, commands: Iterable[str]) -> UsageError:
-    """Return the mistake of a word that is no command, with the one that may be meant."""
+_ROOT_FLAGS = {"--help", "--version", *(option.flag for option in OPTIONS)}
+
+
+def no_such_command(word: str, commands: Iterable[str], arguments: Sequence[str]) -> UsageError:
+    """Return the mistake of a word that is no command, with what may be meant."""
     from difflib import get_close_matches  # late: `--help` must be there at once
 
+    flag = ["", *arguments][list(arguments).index(word)]
+    if flag.startswith("--") and flag not in _ROOT_FLAGS:  # of some command, with the word as its value
+        allowed = "an option of a command stands behind it, such as: chatrobot web --class 20"
+        return UsageError(f"'chatrobot' does not take {flag} {word}", allowed=allowed)
     if near := get_close_matches(word.casefold(), commands, n=1):
         return UsageError(f"there is no command {word!r}", allowed=f"did you mean chatrobot {near[0]}?")
     said = f'commands: {", ".join(commands)}; to tell the robot something: chatrobot do "{word} …"'

@@ -138,7 +138,7 @@ def _show_in_browser(args: argparse.Namespace, recording: Recording) -> int:
         server.start(page, stop)
         url = f"{access.origin(access.host)}/"
         print(web_words(language_of_environment(), "replay_address", url=url), flush=True)
-        while not watch.is_leaving and room.face_count == 0:  # somebody looks
+        while not watch.is_leaving and not room.faces:  # somebody looks
             time.sleep(0.05)
         items = shown(recording, profile.lidar)
         play(items, args.speed, room.show, lambda: not (watch.is_leaving or room.is_halted))

@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
     setup, sheet = _chosen(args)
     access = _access(args)
     recordings = None
-    if args.pupils:
+    if args.pupils is not None:
         check_class(setup, args.pupils)
         recordings = class_recordings(args, lambda: access.tokens)
     certificate = (args.tls_cert, args.tls_key) if args.tls_cert else None

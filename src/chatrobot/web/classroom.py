@@ -71,10 +71,12 @@ class Seat:
     def facts(self, language: LanguageCode = "en") -> dict[str, Any]:
         """Return what the teacher's page shows of it."""
         seen = self._telemetry
+        roles = [face.pass_.role for face in self.room.faces]
         return {
             "name": self.room.name,
             "link": f"/#{self.token}",
-            "pages": self.room.face_count,
+            "pages": len(roles) - roles.count("teacher"),
+            "is_looked_at": "teacher" in roles,
             "pose": [round(value, _DIGITS) for value in seen.pose] if seen is not None else None,
             "moving": seen is not None and seen.moving,
             "emergency": self.room.is_latched,

@@ -131,9 +131,9 @@ class Room:
             self._tell(message)
 
     @property
-    def face_count(self) -> int:
-        """Return how many pages look at it."""
-        return len(self._faces)
+    def faces(self) -> list[Face]:
+        """Return who looks at it."""
+        return list(self._faces.values())
 
     def _tell_gone(self, what: str, code: str, **values: object) -> None:
         self._tell(
@@ -190,7 +190,7 @@ class Room:
 
     def drop(self, token: str) -> list[Face]:
         """Return those who came in with that token, which has been revoked."""
-        return [face for face in list(self._faces.values()) if face.pass_.token == token]
+        return [face for face in self.faces if face.pass_.token == token]
 
     def take(self, face: Face | None, why: str = NOBODY) -> None:
         """Have somebody steer, or nobody; both sides hear of it. `why` is told of what ends by that."""

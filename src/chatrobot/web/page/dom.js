@@ -36,6 +36,12 @@ export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Set the text of a button that has another one at times: it is as wide as the wider of both, and moves nothing. */
+export function setChanging(button, text, other) {
+  setText(button, text);
+  button.dataset.other = other;
+}
+
 export function setPressed(button, isPressed) {
   button.setAttribute("aria-pressed", String(isPressed));
 }

@@ -2,6 +2,7 @@
 
 import { on, send, state } from "./connection.js";
 import { byId, make, setText } from "./dom.js";
+import { notice } from "./steering.js";
 import { onLanguage, t } from "./words.js";
 
 const lines = byId("plan-lines");
@@ -81,7 +82,10 @@ function run() {
   const planText = text.value.trim();
   let message = { do: "approve", turn: plan.turn, yes: true };
   if (plan.isEdited) {
-    if (!planText) return;
+    if (!planText) {
+      notice(t("plan_empty"));
+      return;
+    }
     message = plan.edits ? { do: "edit", plan_text: planText, turn: plan.edits } : { do: "say_plan", plan_text: planText };
   }
   if (!send(message)) return;

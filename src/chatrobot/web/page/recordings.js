@@ -1,7 +1,7 @@
 /** The recordings of a class on the teacher's page: listed, fetched, deleted at the second press, begun anew. */
 
 import { send } from "./connection.js";
-import { byId, make, makeButton, setText } from "./dom.js";
+import { byId, make, makeButton, setChanging, setText } from "./dom.js";
 import { language, onLanguage, t } from "./words.js";
 
 const LOOK_MS = 3000;
@@ -10,6 +10,7 @@ const ALL = "";
 
 const panel = byId("recordings");
 const list = byId("recording-list");
+const rows = new Map();
 let known = null;
 let asked = null;
 let timer = 0;
@@ -65,21 +66,41 @@ async function save(name, link) {
   tellNotice(t("recording_saved", { name }));
 }
 
+function makeRow(name) {
+  const row = {
+    text: make("span"),
+    fetch: makeButton("", "small", () => save(name, row.fetch)),
+    report: makeButton("", "small", () => save(name.replace(/mcap$/, "html"), row.report)),
+    remove: makeButton("", "small", () => deleteAfterAsking(name)),
+  };
+  row.item = make("li", "", row.text, make("span", "space"), row.fetch, row.report, row.remove);
+  rows.set(name, row);
+  return row;
+}
+
+/** A file's row stays the same one: a press has begun on it, or the focus is there, while it is drawn anew. */
 function rowOf(file) {
+  const row = rows.get(file.name) || makeRow(file.name);
   const pupil = t("pupil", { name: file.pupil });
   const values = { name: pupil, time: file.name.slice(11, 19).replaceAll("-", ":"), size: sizeOf(file.size_bytes) };
-  const button = (word, act) => {
-    const made = makeButton(t(word), "small", () => act(made));
-    made.setAttribute("aria-label", `${t(word)}: ${pupil}, ${values.time}`);
-    made.dataset.key = `${word} ${file.name}`;
-    return made;
-  };
-  return make("li", "",
-    make("span", "", t(file.written ? "recording_written" : "recording_whole", values)),
-    make("span", "space"),
-    button("recording_download", (made) => save(file.name, made)),
-    button("recording_report", (made) => save(file.name.replace(/mcap$/, "html"), made)),
-    button(asked === file.name ? "recording_delete_really" : "recording_delete", () => deleteAfterAsking(file.name)));
+  setText(row.text, t(file.written ? "recording_written" : "recording_whole", values));
+  const word = asked === file.name ? "recording_delete_really" : "recording_delete";
+  setText(row.fetch, t("recording_download"));
+  setText(row.report, t("recording_report"));
+  setChanging(row.remove, t(word), t("recording_delete_really"));
+  for (const one of [row.fetch, row.report, row.remove]) {
+    one.setAttribute("aria-label", `${one.textContent}: ${pupil}, ${values.time}`);
+  }
+  return row.item;
+}
+
+function drawList(files) {
+  for (const [name, row] of rows) {
+    if (files.some((file) => file.name === name)) continue;
+    row.item.remove();
+    rows.delete(name);
+  }
+  files.map(rowOf).forEach((item, at) => list.children[at] !== item && list.insertBefore(item, list.children[at] ?? null));
 }
 
 function draw() {
@@ -92,11 +113,10 @@ function draw() {
   setText(byId("recordings-about"), `${t("recordings_about", { folder })} ${missing}`);
   byId("recordings-record").hidden = !unrecorded.length;
   byId("recordings-delete").hidden = !files.length;
-  setText(byId("recordings-delete"), t(asked === ALL ? "recordings_delete_really" : "recordings_delete"));
+  const word = asked === ALL ? "recordings_delete_really" : "recordings_delete";
+  setChanging(byId("recordings-delete"), t(word), t("recordings_delete_really"));
   if (!panel.open) return;
-  const focused = document.activeElement && list.contains(document.activeElement) ? document.activeElement.dataset.key : "";
-  list.replaceChildren(...files.map(rowOf));
-  if (focused) [...list.querySelectorAll("button")].find((one) => one.dataset.key === focused)?.focus();
+  drawList(files);
 }
 
 /** Show them: the class is recorded. */

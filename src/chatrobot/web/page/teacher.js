@@ -1,12 +1,13 @@
 /** The teacher's page: all robots of a class; stop one or all, release, look in, hand out a task and the links. */
 
 import { connect, on, send } from "./connection.js";
-import { byId, make, makeButton, restButton, setBanner, setText, startMenus } from "./dom.js";
+import { byId, make, makeButton, restButton, setBanner, setChanging, setText, startMenus } from "./dom.js";
 import { showRecordings, startRecordings } from "./recordings.js";
 import { onStop } from "./stop.js";
 import { firstLanguage, language, onLanguage, setLanguage, startLanguageMenu, t } from "./words.js";
 
 const NOTICE_MS = 6000;
+const BY_HAND_MS = 60000;
 const SAID_MS = 2500;
 const REALLY_MS = 4000;
 
@@ -18,20 +19,30 @@ let chosen = 2;
 let noticeTimer = 0;
 let saidTimer = 0;
 
-function notice(text) {
+function notice(text, forMs = NOTICE_MS) {
   clearTimeout(noticeTimer);
   setBanner(byId("notice-banner"), text);
-  if (text) noticeTimer = setTimeout(() => notice(""), NOTICE_MS);
+  byId("notice-banner").classList.toggle("by-hand", forMs === BY_HAND_MS);
+  if (text) noticeTimer = setTimeout(() => notice(""), forMs);
+}
+
+/** Copy a text; false where it cannot be. A page that is not secure, as those of most classes, has the old way alone. */
+async function copy(text) {
+  if (await navigator.clipboard?.writeText(text).then(() => true, () => false)) return true;
+  const focused = document.activeElement;
+  const field = make("textarea", "hidden", text);
+  document.body.append(field);
+  field.select();
+  const isCopied = document.execCommand("copy");
+  field.remove();
+  focused?.focus();
+  return isCopied;
 }
 
 async function copyLink(robot) {
   const link = new URL(robot.link, location.href).href;
-  try {
-    await navigator.clipboard.writeText(link);
-    notice(t("link_copied", { name: robot.name }));
-  } catch {
-    notice(link); // a page that is not secure may not write there: it can be copied by hand
-  }
+  if (await copy(link)) notice(t("link_copied", { name: robot.name }));
+  else notice(t("link_copied_by_hand", { link }), BY_HAND_MS);
 }
 
 /** A link ends at the second press: a class goes on while a teacher's finger slips. */
@@ -53,6 +64,7 @@ function makeCard(robot) {
     who: make("p", "who"),
     lesson: make("p", "lesson"),
     doing: make("p", "doing"),
+    said: make("div", "said"),
     stop: makeButton("", "small stop-one", () => send({ do: "stop", room })),
     release: makeButton("", "small", () => send({ do: "release", room })),
     link: makeButton("", "small", () => copyLink(robots.find((one) => one.name === room))),
@@ -64,8 +76,10 @@ function makeCard(robot) {
   card.open.target = "_blank";
   card.open.rel = "noopener";
   const head = make("header", "", card.title, card.state);
-  const buttons = make("div", "buttons", card.stop, card.release, card.link, card.end, card.open);
-  card.item.append(head, card.who, card.where, card.lesson, card.doing, buttons);
+  const buttons = make("div", "buttons", card.stop, card.open, card.link, card.end);
+  card.said.append(card.release, card.lesson, card.doing);
+  card.said.setAttribute("role", "group");
+  card.item.append(head, buttons, card.who, card.where, card.said); // what comes and goes moves no button
   list.append(card.item);
   cards.set(room, card);
   return card;
@@ -93,7 +107,8 @@ function drawCard(robot) {
   setText(card.title, name);
   setText(card.state, t(stateOf(robot)));
   card.state.dataset.state = stateOf(robot);
-  setText(card.who, robot.pages ? t("pages", { count: robot.pages }) : t("pages_none"));
+  const who = robot.pages ? t("pages", { count: robot.pages }) : t("pages_none");
+  setText(card.who, robot.is_looked_at ? `${who} · ${t("teacher_looks")}` : who);
   const [x, y, yaw] = robot.pose || [0, 0, 0];
   const heading = Math.round((Math.atan2(Math.sin(yaw), Math.cos(yaw)) * 180) / Math.PI) || 0;
   setText(card.where, robot.pose ? t("pose", { x: metres(x), y: metres(y), heading }) : "");
@@ -104,6 +119,8 @@ function drawCard(robot) {
   label(card.release, t("release"), name);
   label(card.link, t("link_copy"), name);
   label(card.end, t(card.item.classList.contains("asked") ? "link_end_really" : "link_end"), name);
+  setChanging(card.end, card.end.textContent, t("link_end_really"));
+  card.said.setAttribute("aria-label", name);
   label(card.open, t("robot_open"), name);
   card.release.hidden = !robot.emergency;
 }
@@ -144,6 +161,9 @@ function choose(number) {
 function draw() {
   drawLesson();
   for (const robot of robots) drawCard(robot);
+  for (const { said } of cards.values()) {
+    said.tabIndex = said.scrollHeight > said.clientHeight ? 0 : -1; // what overflows is read by keys, too
+  }
   const moving = robots.filter((robot) => robot.moving).length;
   setText(byId("class-state"), t("class_state", { count: robots.length, moving }));
   const isLatched = robots.some((robot) => robot.emergency);
@@ -187,7 +207,8 @@ byId("release").addEventListener("click", () => send({ do: "release" }));
 byId("task-form").addEventListener("submit", (event) => {
   event.preventDefault();
   const text = byId("task").value.trim();
-  if (text && send({ do: "task", text })) notice(t("task_handed_out"));
+  if (!text) notice(t("task_empty"));
+  else if (send({ do: "task", text })) notice(t("task_handed_out"));
 });
 byId("lesson-form").addEventListener("submit", (event) => {
   event.preventDefault();
