@@ -97,7 +97,7 @@ def test_without_a_terminal_an_edit_asks_for_a_file_and_starts_no_editor(
 ) -> None:
     library.keep(KeptProgram("waltz", program("self.drive(0.2, 0.0, 1.0)")))
     done = chatrobot("program", "edit", "waltz")
-    assert (done.code, "needs a terminal (chatrobot program edit 'waltz' --file FILE.py)" in done.err) == (
+    assert (done.code, "needs a terminal (chatrobot program edit waltz --file FILE.py)" in done.err) == (
         2,
         True,
     )

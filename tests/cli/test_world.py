@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,7 +11,7 @@ import pytest
 from PIL import Image
 
 from chatrobot.cli.entry import main
-from chatrobot.sim.load import world_names
+from chatrobot.sim.load import load_world, world_names
 
 Output = pytest.CaptureFixture[str]
 
@@ -35,6 +36,16 @@ def test_a_new_world_is_fine_and_can_be_driven(capsys: Output) -> None:
     assert code == 0
     assert "3 places, each reached from the start" in told
     assert main(["do", "go to the door", "--world", "room.yaml", "--fast"]) == 0
+
+
+def test_the_commands_that_a_new_world_names_can_be_pasted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Output
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["world", "new", "Bob's room: $1.yaml"]) == 0
+    _, check, _ = (line for line in capsys.readouterr().out.splitlines() if line.startswith("  "))
+    assert main(shlex.split(check)[1:]) == 0
+    assert load_world("./Bob's room: $1.yaml").name == "Bob's room: $1"
 
 
 def test_a_file_that_is_there_is_not_written_over(world: Path, capsys: Output) -> None:

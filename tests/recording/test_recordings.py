@@ -113,6 +113,16 @@ def test_a_replay_tells_the_same_poses_and_words(recorded: tuple[Path, list[dict
     assert "TV" in text  # the map
 
 
+def test_a_recording_without_a_message_has_no_day_and_none_commands_the_terminal(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path / "bare.mcap", Redactor(tuple, {}))
+    recorder.start(lambda: {"title": "red \x1b[31m robot"})
+    recorder.close()
+    assert (
+        Command(tmp_path)("replay", str(recorder.path)).out
+        == "red  [31m robot: Nothing is in this recording.\n"
+    )
+
+
 def test_a_recording_of_a_foreign_robot_is_shown_by_its_odometry(tmp_path: Path) -> None:
     odometry = [(i * 0.02, Odometry(i * 0.02, i * 0.006, 0.0, 0.0, 0.3, 0.0, 0.0)) for i in range(100)]
     items = shown(Recording(tmp_path, odometry=odometry, words=[(0.5, "go")]))

@@ -103,7 +103,7 @@ def edited_text(text: str, suffix: str) -> str:
         path.write_text(text, encoding="utf-8")
         try:
             code = subprocess.run([*command, str(path)], check=False).returncode
-            edited = path.read_text(encoding="utf-8")
+            edited = path.read_text(encoding="utf-8-sig")
         except FileNotFoundError as error:
             raise _unusable("cannot be started: there is no such command", command) from error
         except OSError as error:

@@ -9,6 +9,7 @@ import argparse
 import datetime
 import math
 import queue
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -176,7 +177,7 @@ class Dialogue:
 def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Path) -> int:
     dialogue.say("begin", robot=profile.title)
     if dialogue.truth is not None:
-        dialogue.say("no_tape", profile=robot)
+        dialogue.say("no_tape", profile=robot, quoted=shlex.quote(robot))
     metre = _measure(dialogue, METRE)
     turn = _measure(dialogue, TURN) if profile.can_turn_on_the_spot else None
     if turn is None and not profile.can_turn_on_the_spot:

@@ -40,8 +40,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if os.environ.get("CHATROBOT_DEBUG"):
             raise
         from chatrobot.core.errors import InputError
+        from chatrobot.core.reason import printable
 
-        print(f"chatrobot: {_sentence(error)}", file=sys.stderr)
+        print(f"chatrobot: {printable(_sentence(error))}", file=sys.stderr)
         return USAGE if isinstance(error, InputError) else FAILED
 
 

@@ -10,7 +10,7 @@ from chatrobot.cli.narrator import Narrator
 from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import Pose
-from chatrobot.core.reason import fixed, one_line
+from chatrobot.core.reason import fixed, one_line, printable
 from chatrobot.language.interpretation import LanguageCode
 
 _CLEAR_LINE = "\r\x1b[K"
@@ -93,7 +93,7 @@ class HumanPrinter:
         if self._turn != self._headed and self._turn in self._said:
             self._headed = self._turn
             self._output.write(f"> {self._said[self._turn]}\n")
-        self._output.write(f"{text}\n")
+        self._output.write(f"{printable(text)}\n")
 
 
 class _Way:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from chatrobot.cli.folders import config_folder, profile_folders
 from chatrobot.cli.json_lines import json_line
 from chatrobot.core.errors import ProfileError
+from chatrobot.core.reason import printable
 from chatrobot.robots.load import ProfileEntry, list_profiles
 from chatrobot.robots.profile import RobotProfile
 
@@ -35,7 +36,7 @@ def robots(args: argparse.Namespace) -> int:
             said = {"event": "robot", "name": entry.name, "origin": entry.origin, "file": str(entry.file)}
             print(json_line({**said, **about}), end="")
         else:
-            print(f"{entry.name:<{_NAME_COLUMNS}}{line}")
+            print(printable(f"{entry.name:<{_NAME_COLUMNS}}{line}"))
     return 1 if is_any_broken else 0
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 
@@ -172,7 +173,8 @@ def _edit(args: argparse.Namespace) -> int:
     program = library.get(args.name)
     if not (args.file or has_keyboard()):
         raise UsageError(
-            "an editor needs a terminal", allowed=f"chatrobot program edit {args.name!r} --file FILE.py"
+            "an editor needs a terminal",
+            allowed=f"chatrobot program edit {shlex.quote(args.name)} --file FILE.py",
         )
     source = _read(Path(args.file).expanduser()) if args.file else edited_text(program.source, ".py")
     if source == program.source:
@@ -181,7 +183,7 @@ def _edit(args: argparse.Namespace) -> int:
     problem = no_python(source)
     if problem is not None:
         where = args.file or _set_aside(library.place(program.name), source)
-        way_out = f"“{program.name}” stays as it was; mend the file, then --file {where}"
+        way_out = f"“{program.name}” stays as it was; mend the file, then --file {shlex.quote(where)}"
         raise UsageError(render_reason(problem.reason, "en").rstrip("."), where=where, allowed=way_out)
     library.edit(program.name, source)
     print(f"Saved “{program.name}”. It is rehearsed again when it runs.")
@@ -223,7 +225,7 @@ def _export(args: argparse.Namespace) -> int:
     folder = export(program, Path(args.dir).expanduser())
     for path in sorted(workspace(program)):
         print(f"{args.dir}/{path}")
-    print(f"To build and run it where ROS 2 is: {folder}/build_run.sh")
+    print(f"To build and run it where ROS 2 is: {shlex.quote(f'{folder}/build_run.sh')}")
     return 0
 
 

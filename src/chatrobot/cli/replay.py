@@ -19,6 +19,7 @@ from chatrobot.cli.recorder import read_recording
 from chatrobot.cli.report.summary import words_in
 from chatrobot.cli.signals import SignalWatch
 from chatrobot.core.errors import InputError, UsageError
+from chatrobot.core.reason import printable
 from chatrobot.language.interpretation import LanguageCode, language_of_tags
 from chatrobot.recording.about import world_of
 from chatrobot.recording.playback import TELEMETRY_S, Heard, Shown, play, shown
@@ -74,10 +75,15 @@ class _Screen:
         self._motion_view = MotionView()
         self._trail: list[tuple[float, float]] = []
         self._world = world_of(meta)
-        when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(recording.began_ns / 1e9))
         title, world = meta.get("title", "a robot"), meta.get("world", "")
         where = f" in {world}" if world else ""
-        output.write(f"{title}{where}, {when}, {recording.duration_s:.1f} s\n")
+        output.write(printable(f"{title}{where}{self._when(recording)}\n"))
+
+    def _when(self, recording: Recording) -> str:
+        if not recording.began_ns:
+            return f": {words_in(self._language)('nothing')}"
+        when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(recording.began_ns / 1e9))
+        return f", {when}, {recording.duration_s:.1f} s"
 
     def show(self, _t_s: float, item: Shown) -> None:
         """Show one thing."""

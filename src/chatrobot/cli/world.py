@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import json
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -152,9 +154,12 @@ def _new(args: argparse.Namespace) -> int:
     path = Path(args.file).expanduser()
     if path.suffix not in (".yaml", ".yml"):
         raise UsageError("is no name for a world", where=args.file, allowed="a file that ends in .yaml")
-    text = (
-        NEW_WORLD.read_text(encoding="utf-8").replace("{file}", str(args.file)).replace("{name}", path.stem)
-    )
+    if not path.name.isprintable():
+        raise UsageError("is no name for a world", where=args.file, allowed="printable characters")
+    named, name = shlex.quote(args.file), path.stem
+    if not name.replace("_", "").isalnum():  # in quotation marks, as YAML reads them
+        name = json.dumps(name, ensure_ascii=False)
+    text = NEW_WORLD.read_text(encoding="utf-8").replace("{file}", named).replace("{name}", name)
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(text)
@@ -163,6 +168,6 @@ def _new(args: argparse.Namespace) -> int:
     except OSError as error:
         raise UsageError(f"cannot be written ({error.strerror})", where=str(path)) from error
     print(f"{path} is a room to change into your own; then:")
-    for action in (f"world draw {args.file}", f"world check {args.file}", f"--world {args.file}"):
-        print(f"  chatrobot {action}")
+    for action in ("world draw", "world check", "--world"):
+        print(f"  chatrobot {action} {named}")
     return 0

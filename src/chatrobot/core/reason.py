@@ -72,6 +72,24 @@ def one_line(text: str, max_chars: int = SHOWN_CHARS) -> str:
     return tidy if len(tidy) <= max_chars else f"{tidy[: max_chars - 1]}…"
 
 
+_OBEYED = (
+    *range(9),
+    *range(11, 32),
+    *range(127, 160),
+    0x200E,
+    0x200F,
+    *range(0x202A, 0x202F),
+    *range(0x2066, 0x206A),
+)
+_SHOWN = dict.fromkeys(_OBEYED, " ")
+"""What a terminal obeys instead of showing it, but for tabs and line breaks: control characters, direction marks."""
+
+
+def printable(text: str) -> str:
+    """Text from a file or a person that changes nothing in a terminal but what is read there."""
+    return text.translate(_SHOWN)
+
+
 def quoted(text: str) -> str:
     """A name from outside as a quoted string: it cannot end its quotation, nor begin a line of its own."""
     return json.dumps(one_line(text, QUOTED_CHARS), ensure_ascii=False)

@@ -66,7 +66,7 @@ def _stored(config: ModelConfig) -> str:
         return ""
     path = config.folder / FILE
     try:
-        return str(tomllib.loads(path.read_text(encoding="utf-8")).get("model", ""))
+        return str(tomllib.loads(path.read_text(encoding="utf-8-sig")).get("model", ""))
     except FileNotFoundError:
         return ""
     except (OSError, ValueError) as error:

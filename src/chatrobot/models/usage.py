@@ -91,7 +91,7 @@ def _list_cost(usage: Usage, provider: str, model: str) -> float | None:
 def _table(path: Path) -> dict[str, dict[str, tuple[float, float, float]]]:
     """Read US dollars per million tokens (prompt, cached, reply) by provider and beginning of a model's name."""
     try:
-        table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
+        table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         return {
             provider: {
                 name: (float(row["prompt"]), float(row.get("cached", row["prompt"])), float(row["reply"]))

@@ -101,7 +101,7 @@ def reset_calibration(profile: str, folder: Path) -> Path | None:
         OSError: it cannot be read or written.
     """
     file = Path(profile) if _is_file(profile) else folder / f"{profile}.toml"
-    if not file.exists() or not _TABLE.search(file.read_text(encoding="utf-8")):
+    if not file.exists() or not _TABLE.search(file.read_text(encoding="utf-8-sig")):
         return None
     text = _without_table(file)
     original = None if _is_file(profile) else _file_of(profile)
@@ -121,7 +121,7 @@ def _file_of(name: str, folders: tuple[Path, ...] = ()) -> Path | None:
 
 
 def _without_table(file: Path) -> str:
-    return _TABLE.sub("", file.read_text(encoding="utf-8")).rstrip("\n") + "\n"
+    return _TABLE.sub("", file.read_text(encoding="utf-8-sig")).rstrip("\n") + "\n"
 
 
 def _write(file: Path, text: str) -> None:

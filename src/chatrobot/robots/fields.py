@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from chatrobot.core.errors import ProfileError
+from chatrobot.core.reason import printable
 from chatrobot.robots.profile import NONE
 
 # A ROS name, relative or absolute, without substitutions (design.ros2.org, topic and service names).
@@ -133,6 +134,10 @@ class Table:
         value = self._get(key, meaning)
         if not isinstance(value, str) or not value.strip():
             self.source.fail(self.field(key), f"{_shown(value)} is not text", meaning)
+        if value != printable(value):
+            self.source.fail(
+                self.field(key), f"{_shown(value)} has control characters", f"{meaning}, in plain text"
+            )
         return value
 
     def choice(self, key: str, choices: Sequence[str]) -> str:

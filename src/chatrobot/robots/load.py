@@ -34,6 +34,8 @@ class ProfileEntry:
 
     def load(self) -> RobotProfile:
         """Read and check it. Raises ProfileError."""
+        if not self.file.is_file():  # a named pipe would have us wait for ever
+            raise ProfileError("this is not a file", where=str(self.file), allowed="a readable .toml file")
         return _read(self.file)
 
 
@@ -130,7 +132,7 @@ def _read(file: Path) -> RobotProfile:
             allowed="the file is named after the robot: letters, digits, _ and -, then .toml",
         )
     try:
-        text = file.read_text(encoding="utf-8")
+        text = file.read_text(encoding="utf-8-sig")
     except OSError as error:
         problem = error.strerror or str(error)
         raise ProfileError(problem, where=str(file), allowed="a readable .toml file") from error

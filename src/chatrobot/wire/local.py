@@ -77,9 +77,10 @@ class LocalWire(Wire):
             self._socket.connect(str(path))
         except OSError as error:
             self._socket.close()
-            raise WireError(
-                f"no robot answers at {path}; chatrobot sim --on local:{path} starts a simulated one"
-            ) from error
+            from shlex import quote  # only then
+
+            starts = f"chatrobot sim --on {quote(f'local:{path}')} starts a simulated one"
+            raise WireError(f"no robot answers at {path}; {starts}") from error
         self._reader: threading.Thread | None = None
 
     def publish(self, topic: str, message: Message) -> None:

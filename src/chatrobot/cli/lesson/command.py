@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import sys
 from dataclasses import replace
 
@@ -82,7 +83,7 @@ def _check(args: argparse.Namespace) -> None:
             "a lesson runs in real time", where="--fast", allowed="--check FILE, in simulated time"
         )
     if not ways and (args.json or not sys.stdin.isatty()):
-        allowed = f"chatrobot lesson {args.lesson} --check FILE, or - for standard input"
+        allowed = f"chatrobot lesson {shlex.quote(args.lesson)} --check FILE, or - for standard input"
         raise UsageError(
             "a lesson is for a person at a terminal", where="--json" * args.json, allowed=allowed
         )
