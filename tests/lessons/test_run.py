@@ -104,3 +104,20 @@ def test_hints_and_skipped_tasks_are_told_at_the_end() -> None:
         "Lesson not passed: 1 of 2 tasks.",
     ]
     assert run.hear(Started(3)) is None
+
+
+def test_after_the_last_task_an_earlier_one_may_be_done_and_what_was_passed_stays_so() -> None:
+    run = LessonRun(sheet_with(ONE_METRE, tasks=3), FOOTPRINT)
+    run.skip()
+    drive(run, trace(forward(1.0)))
+    run.skip()
+    assert run.task is None
+    assert run.go_to(2)
+    assert [record.state for record in run.records] == ["skipped", "passed", "skipped"]
+    run.hear(TruePose(0, *trace(forward(1.0))[0]))
+    assert run.go_to(1)
+    verdict = drive(run, trace(forward(1.0)), turn=2)
+    assert verdict is not None
+    assert verdict.is_passed
+    assert run.number == 3
+    assert not run.go_to(4)

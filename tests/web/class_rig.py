@@ -110,6 +110,8 @@ class RunningClass(TalkingProcess):
         self._opened.close()
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(PATIENCE_S)
+        left = [*(self.folder / "chatrobot").glob("class-*")]
+        assert left == [], "what pupils kept ends with the class"
 
 
 def _are_left(robots: list[dict[str, Any]]) -> bool:

@@ -61,11 +61,18 @@ def test_each_pupil_takes_the_lesson_and_the_teacher_moves_all_on(pupils: Runnin
         one.say("say", text=command)
         while "Lesson not passed: 1 of 4 tasks." not in one.wait_for("note")["text"]:
             pass
+    one.say("say", text="/task 9")
+    one.wait_for("note", text="There is no such task: /task 1 to /task 4 go to one.")
+    one.say("say", text="/task 2")
+    robots_where(teacher, lambda robots: robots[2]["lesson"]["states"][1] == "open")
+    one.say("say", text="/skip")
     told = _told_in_the_report_of(pupils, 2)
     heard = {text for kind, text in told if kind == "gesagt"}
     assert {"forward 70 cm", "/again", "/skip"} <= heard
     assert not any(text.startswith("go to ") for text in heard), "nobody said that"
-    assert {passed, "Task 3 is left out."} <= {text for kind, text in told if kind == "Hinweis"}
+    assert {passed, "Task 3 is left out; /task 3 goes back to it."} <= {
+        text for kind, text in told if kind == "Hinweis"
+    }
 
 
 def _told_in_the_report_of(pupils: RunningClass, place: int) -> set[tuple[str, str]]:
@@ -142,7 +149,8 @@ def velocities_of(ear: Heard) -> list[bool]:
 def test_a_program_and_a_text_without_end_cost_the_others_nothing(pupils: RunningClass) -> None:
     drive(pupils, 0)
     undisturbed = velocities_of(pupils.heard[0])
-    Library(pupils.folder / "config/class/pupil-2").keep(KeptProgram("busy", ENDLESS_PROGRAM))
+    (kept,) = (pupils.folder / "chatrobot").glob("class-*/class")
+    Library(kept / "pupil-2").keep(KeptProgram("busy", ENDLESS_PROGRAM))
     program = {"do": "edit_program", "name": "busy", "source": ENDLESS_PROGRAM}
     texts = {"do": "say", "text": ENDLESS_TEXT}, {"do": "say_plan", "plan_text": ENDLESS_PLAN}
     with kept_busy(pupils.pupil(1), program), kept_busy(pupils.pupil(2), *texts):

@@ -14,7 +14,7 @@ from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.sim.shapes import Circle
 from chatrobot.web.words import told
 from tests.processes import wait_until
-from tests.web.browser import DESKTOP, PHONE, browser, open_page, page, rehearse
+from tests.web.browser import DESKTOP, PHONE, browser, count_pixels, open_page, page, rehearse
 from tests.web.rig import WebRig
 
 __all__ = ["browser", "page"]
@@ -153,6 +153,19 @@ def test_a_key_that_is_held_and_moves_nothing_is_told_to_be_let_go(page: Page, r
         )
         page.keyboard.up("s")
     expect(page.locator("#limited")).to_be_empty()
+
+
+def test_a_robot_that_stands_far_off_when_the_page_is_loaded_is_on_the_map(page: Page, rig: WebRig) -> None:
+    floor = page.locator("#floor").bounding_box()
+    assert floor is not None
+    with rig.telling(Telemetry(0, Pose(30.0, 5.0, 0.0), Twist(), 0.0)):
+        wait_until(lambda: count_pixels(page, "robot") > 20)
+        page.mouse.move(floor["x"] + 200, floor["y"] + 300)
+        page.mouse.down()
+        page.mouse.move(floor["x"] - 900, floor["y"] + 300, steps=3)
+        page.mouse.up()
+        page.wait_for_timeout(500)
+        assert count_pixels(page, "robot") == 0, "a person moved the map, and it stays"
 
 
 @pytest.mark.parametrize("event", ["blur", "contextmenu", "pagehide"])

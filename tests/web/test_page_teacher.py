@@ -7,7 +7,7 @@ import time
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.web.browser import browser
+from tests.web.browser import browser, open_page
 from tests.web.class_rig import RunningClass, browsing, drive, pupils, shared
 
 __all__ = ["browser", "browsing", "pupils", "shared"]
@@ -95,3 +95,23 @@ def test_a_link_is_copied_where_the_page_is_not_secure(pupils: RunningClass, tea
     expect(teacher.get_by_label("Task for everybody")).to_have_value(
         f"{pupils.origin}/#{pupils.pupils_tokens()[1]}"
     )
+
+
+def test_at_the_end_of_a_lesson_a_button_goes_back_to_a_task(pupils: RunningClass, browsing: Browser) -> None:
+    page = open_page(browsing, f"{pupils.origin}/#{pupils.pupils_tokens()[2]}")
+    for number in range(3, 5):
+        page.get_by_role("button", name="Leave it out").click()
+        expect(page.locator("#turns .line").last).to_contain_text(f"Task {number} is left out")
+    page.get_by_role("button", name="Back to task 2").click()
+    expect(page.locator("#lesson-head")).to_have_text("Task 2 of 4: Backwards")
+    expect(page.get_by_role("button", name="Hint")).to_be_visible()
+
+
+def test_a_command_of_the_terminal_is_answered_with_what_a_page_has_for_it(
+    pupils: RunningClass, browsing: Browser
+) -> None:
+    page = open_page(browsing, f"{pupils.origin}/#{pupils.pupils_tokens()[0]}")
+    for typed, answer in (("/obstacle add box 1 0", "press “Obstacle”"), ("/map", "does nothing here")):
+        page.locator("#say").fill(typed)
+        page.keyboard.press("Enter")
+        expect(page.locator("#turns .line").last).to_contain_text(answer)

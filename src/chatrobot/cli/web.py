@@ -8,11 +8,13 @@ import os
 import re
 import socket
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from chatrobot.cli.choices import setup_from
@@ -27,7 +29,9 @@ from chatrobot.dialogue.pump import Pump
 from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
+from chatrobot.robots.load import profile_argument, profile_dirs
 from chatrobot.sim.robot import TRUTH_TOPIC
+from chatrobot.wire.runtime_dir import runtime_dir
 
 if TYPE_CHECKING:
     from chatrobot.lessons.sheet import Sheet
@@ -74,7 +78,12 @@ def run(args: argparse.Namespace) -> int:
         if args.pupils:
             classroom = Classroom(args.pupils, access, args.token, sheet, recordings)
             server = WebServer(access, classroom.rooms, certificate, classroom)
-            return _serve_class(setup, classroom, server, sockets, tell)
+            with tempfile.TemporaryDirectory(prefix="class-", dir=runtime_dir()) as kept:
+                robot = profile_argument(setup.robot, profile_dirs(setup.folder))
+                setup = replace(
+                    setup, robot=robot, folder=Path(kept)
+                )  # no pupil meets the last class's programs
+                return _serve_class(setup, classroom, server, sockets, tell)
         room = Room()
         server = WebServer(access, {room.name: room}, certificate)
         meet = recorded(args, unasked=True, tokens=lambda: access.tokens)

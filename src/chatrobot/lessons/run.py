@@ -175,8 +175,20 @@ class LessonRun:
         """Leave the task out."""
         with self._lock:
             if self.task is not None:
-                self.records[self._index].state = "skipped"
+                self._leave_out()
                 self._go_on()
+
+    def go_to(self, number: int) -> bool:
+        """Go to that task, done or left out as it may be; False where there is none. What was passed stays passed."""
+        with self._lock:
+            if not 1 <= number <= len(self.records):
+                return False
+            self._leave_out()
+            self._index = number - 1
+            record = self.records[self._index]
+            record.state = "open" if record.state == "skipped" else record.state
+            self._enter()
+            return True
 
     def again(self, drive: Callable[[str], int]) -> bool:
         """Begin the task anew. `drive` takes plan text, drives it and returns its turn; it is called only where the
@@ -191,8 +203,15 @@ class LessonRun:
             self._returning = drive(format_plan(Plan((step,))))
             return False
 
+    def _leave_out(self) -> None:
+        if self.task is not None and self.records[self._index].state == "open":
+            self.records[self._index].state = "skipped"
+
     def _go_on(self) -> None:
+        """Turn to the next task that is not passed yet: whoever went back to one has passed others behind it."""
         self._index += 1
+        while self.task is not None and self.records[self._index].state == "passed":
+            self._index += 1
         self._enter()
 
     def _enter(self) -> None:

@@ -21,7 +21,7 @@ from chatrobot.web.limits import ABORT, UNREAD, Rate
 from chatrobot.web.outbox import Face, Message, Outbox
 from chatrobot.web.protocol import FIELDS, Fields, MalformedError, read_message
 from chatrobot.web.room import Room
-from chatrobot.web.words import refused, web_words
+from chatrobot.web.words import command_message, refused, web_words
 
 CLOSE_S = 0.5
 """So long a page may take to read why it is closed."""
@@ -236,6 +236,18 @@ def _obstacle(room: Room, page: Page, said: dict[str, Any]) -> None:
     room.change_obstacle(page, said["name"], circle)
 
 
+def _say(room: Room, page: Page, said: dict[str, Any]) -> None:
+    """A command of the terminal is answered with what does the same at a page."""
+    text = said["text"]
+    if room.take_command(page, text):
+        return
+    if message := command_message(text):
+        room.note_said(0, text, page.id, page.name)
+        room.tell_people(message)
+        return
+    room.say(page, text)
+
+
 def _language(_: Room, page: Page, said: dict[str, Any]) -> None:
     page.language = said["code"]
 
@@ -245,7 +257,7 @@ def _history(room: Room, page: Page, _: dict[str, Any]) -> None:
 
 
 ACTIONS: Mapping[str, Callable[[Room, Page, dict[str, Any]], None]] = {
-    "say": lambda room, page, said: room.say(page, said["text"]),
+    "say": _say,
     "say_plan": lambda room, page, said: room.say_plan(page, said["plan_text"]),
     "approve": lambda room, page, said: room.answer(page, said["turn"], said["yes"]),
     "edit": lambda room, page, said: room.say_edited(page, said["plan_text"], said["turn"]),

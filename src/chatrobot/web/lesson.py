@@ -99,7 +99,8 @@ class RoomLesson:
             about = describe_lesson(run, self._robot_title, language)[:-1] if run.number == 1 else []
         else:
             *lines, head = describe_end(run, language)
-        return {"is": "lesson", "over": run.task is None, "head": head, "lines": lines, "about": about}
+        over, count = run.task is None, len(run.records)
+        return {"is": "lesson", "over": over, "count": count, "head": head, "lines": lines, "about": about}
 
     def facts(self, language: str) -> dict[str, Any]:
         """Return where this pupil is, for whoever teaches."""
@@ -117,13 +118,15 @@ class RoomLesson:
 
     def _obey(self, face: Face, text: str) -> bool:
         """Do what a pupil typed, or a button sent, where it is one of the lesson's commands; False where it is not."""
-        command = text.strip().casefold()
+        command, _, argument = text.strip().casefold().partition(" ")
         if command not in COMMANDS:
             return False
         self._room.note_said(0, text, face.id, face.name)
         self._note_said(0, text)
         task, number = self.run.task, self.run.number
-        if task is None or command == "/task":
+        if command == "/task" and argument:
+            self._go_back(argument.strip())
+        elif task is None or command == "/task":
             texts = {
                 each: self._where(each) for each in REPLY_LANGUAGES
             }  # as it is now, whoever reads it later
@@ -138,6 +141,13 @@ class RoomLesson:
             self._begin_anew(face)
         self._show()
         return True
+
+    def _go_back(self, number: str) -> None:
+        if self.run.go_to(int(number) if number.isdecimal() else 0):
+            self._last = None
+            self._tell(self._where)
+        else:
+            self._tell(lambda language: say(language, "task_unknown", count=len(self.run.records)))
 
     def _where(self, language: str) -> str:
         """Say what is to be done; at the end of the lesson what became of it."""

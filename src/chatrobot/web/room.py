@@ -46,7 +46,7 @@ class Room:
         self._turns: dict[int, str] = {}
         self.plans = AskedPlans()
         self.take_command: Callable[[Face, str], bool] = lambda _, __: False
-        """Does what is no sentence for the robot; False where it is one."""
+        """Does what is no sentence for the robot; False where it is one. Ask it before `say`."""
         self.is_latched = self._release_is_due = False
         self.stop_port = 0
         """Where the line listens that stops."""
@@ -267,8 +267,6 @@ class Room:
 
     def say(self, face: Face, text: str) -> None:
         """Take a sentence in. A stop is out before this returns."""
-        if self.take_command(face, text):
-            return
         if is_release(text):
             self._release_for(face, text)
             return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from typing import Any
 
@@ -12,12 +13,14 @@ from chatrobot.dialogue.replies import describe_end, describe_left, describe_twi
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.reflex import is_release, leads_with_stop
 from chatrobot.web.outbox import Message
 
 DROPPABLE = frozenset({"telemetry", "scan"})
 """The next event of that kind says all that this one does."""
 PASSING = DROPPABLE | {"progress", "pose", "limited", "obstacle_changed"}
 """What a page that comes later needs not be told."""
+_COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
 UNTOLD = frozenset({"finished"})
 """`result` says the same. An agent's turn has no other end here."""
 
@@ -43,6 +46,15 @@ def refused(why: str, do: str = "", **values: object) -> Message:
     return Message(
         lambda language: {"is": "refused", "why": why, "do": do, "text": web_words(language, why, **values)}
     )
+
+
+def command_message(text: str) -> Message | None:
+    """Return what does at a page what a command of the terminal does; None for what stops, releases or is none."""
+    found = _COMMAND.match(text.strip())
+    if found is None or leads_with_stop(text) or is_release(text):
+        return None
+    code = "obstacle_at_page" if found[0].casefold() == "/obstacle" else "command_at_page"
+    return noted(code, command=found[0])
 
 
 def event_message(event: Event) -> Message:

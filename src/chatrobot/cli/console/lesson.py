@@ -70,9 +70,12 @@ class ConsoleLesson:
 
     # --- the commands ---
 
-    def show_task(self, controller: ChatController, _: str) -> None:
-        """Show the task once more."""
-        controller.display.print(*self._task())
+    def show_task(self, controller: ChatController, number: str) -> None:
+        """Show the task once more, or go to the one of that number."""
+        if not number or self.run.go_to(int(number) if number.isdecimal() else 0):
+            controller.display.print(*self._task())
+        else:
+            self._say(say(self.language, "task_unknown", count=len(self.run.records)))
 
     def hint(self, _: ChatController, __: str) -> None:
         """Show the hint."""

@@ -23,7 +23,7 @@ from chatrobot.dialogue.session import Session
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.lessons.run import LessonRun, Verdict
 from chatrobot.lessons.sheet import Sheet
-from chatrobot.lessons.words import describe_end, describe_hint, describe_verdict, say
+from chatrobot.lessons.words import describe_end, describe_hint, describe_task, describe_verdict, say
 
 _HEAD = re.compile(r"#\D*(\d+)")
 """`# task 2`: what follows is for that task."""
@@ -168,9 +168,9 @@ class LessonConversation:
         if text.startswith("#"):
             self._turn_to(text)
             return
-        if run.task is None:
+        if run.task is None and not text.startswith("/task"):
             return
-        if not run.has_begun:
+        if run.task is not None and not run.has_begun:
             self._begin_anew()
         self._referee.turn(text)
         self._referee.words.follow("" if text.startswith("/") else text)
@@ -198,8 +198,10 @@ class LessonConversation:
                 run.skip()
             case "/hint":
                 self._referee.write(f"  {describe_hint(run.hint(), language)}")
+            case "/task" if (number := text.split()[-1]).isdecimal() and run.go_to(int(number)):
+                self._referee.write("\n".join(f"  {line}" for line in describe_task(run, language)))
             case command:
-                self._referee.write(f"  {command}: /again, /skip, /hint")
+                self._referee.write(f"  {command}: /again, /skip, /hint, /task 2")
 
     def _begin_anew(self) -> None:
         session = self._session

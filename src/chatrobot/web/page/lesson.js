@@ -6,6 +6,9 @@ import { onLanguage, t } from "./words.js";
 
 const COMMANDS = { "lesson_hint": "/hint", "lesson_again": "/again", "lesson_skip": "/skip" };
 
+let over = false;
+let count = 0;
+
 const panel = byId("lesson");
 const verdict = byId("lesson-verdict");
 
@@ -15,7 +18,9 @@ function show(message) {
   setText(byId("lesson-head"), message.head);
   const lines = [...message.about.map((line) => make("p", "hint", line)), ...message.lines.map((line) => make("p", "", line))];
   byId("lesson-lines").replaceChildren(...lines);
-  byId("lesson-buttons").hidden = message.over;
+  if (over && !message.over) setText(verdict, "");
+  ({ over, count } = message);
+  showButtons();
 }
 
 function showVerdict(message) {
@@ -23,11 +28,15 @@ function showVerdict(message) {
   setText(verdict, `${message.state === "passed" ? "✓" : "→"} ${message.text}`);
 }
 
+/** The commands of a task; at the end of the lesson the ways back to each. They stay the same ones while they say the same. */
 function showButtons() {
-  const press = ([word, text]) => makeButton(t(word), "small", (event) => {
+  const back = () => Array.from({ length: count }, (_, at) => [t("lesson_back", { number: at + 1 }), `/task ${at + 1}`]);
+  const wanted = over ? back() : Object.entries(COMMANDS).map(([word, text]) => [t(word), text]);
+  const box = byId("lesson-buttons");
+  if (wanted.map(([label]) => label).join() === [...box.children].map((one) => one.textContent).join()) return;
+  box.replaceChildren(...wanted.map(([label, text]) => makeButton(label, "small", (event) => {
     if (send({ do: "say", text })) restButton(event.currentTarget); // a double click leaves out one task
-  });
-  byId("lesson-buttons").replaceChildren(...Object.entries(COMMANDS).map(press));
+  })));
 }
 
 /** Begin: hear what there is to show. */

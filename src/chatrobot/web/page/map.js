@@ -91,6 +91,7 @@ function noteTelemetry(event) {
   const { x_m: x, y_m: y } = event.pose;
   if (!last || Math.hypot(x - last[0], y - last[1]) > LEAST_STEP_M) known.trail.push([x, y]);
   if (known.trail.length > MOST_TRAIL) known.trail.shift();
+  if (!view.isMoved && !view.shows(x, y)) fit(); // it drove off, or stood elsewhere before this page was loaded
   if (performance.now() - summaryMs < SUMMARY_MS) return;
   summaryMs = performance.now();
   const { yaw_rad: yaw } = event.pose; // it counts turns

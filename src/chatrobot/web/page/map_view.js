@@ -32,6 +32,12 @@ export class View {
     return [this.cos * across + this.sin * up, -this.sin * across + this.cos * up];
   }
 
+  /** Whether a point of the floor can be seen. */
+  shows(x, y) {
+    const [screenX, screenY] = this.toScreen(x, y);
+    return screenX >= 0 && screenX <= this.width && screenY >= 0 && screenY <= this.height;
+  }
+
   /** Return the angle on the screen, clockwise, of a heading on the floor. */
   angle(yaw) {
     return -(yaw + this.yaw);
