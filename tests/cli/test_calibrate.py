@@ -13,6 +13,7 @@ import pexpect
 import pytest
 
 from chatrobot.robots.load import load_profile
+from chatrobot.wire.local import LocalHub
 from tests.cli.running import Command, environment
 from tests.cli.test_terminal import Terminal, code
 
@@ -154,3 +155,18 @@ def test_its_help_says_what_happens_where_it_is_saved_and_how_to_take_it_back(tm
     for part in ("drives one metre, then turns once", '"robots" of the configuration folder', "--reset", "--fast",
                  "skip", "exit codes"):  # fmt: skip
         assert part in shown
+
+
+def test_without_odometry_nobody_is_asked_to_measure(tmp_path: Path) -> None:
+    chatrobot = Command(tmp_path)
+    done = chatrobot("calibrate", "--robot", "no_odometry")
+    assert (done.code, "has no odometry" in done.out) == (1, True)
+
+
+@pytest.mark.realtime
+def test_a_robot_that_says_nothing_is_told_of_before_anybody_measures(tmp_path: Path) -> None:
+    hub = LocalHub(tmp_path / "silent.sock")
+    done = Command(tmp_path).apart("calibrate", "--on", f"local:{hub.path}")
+    hub.close()
+    assert (done.code, "No odometry arrives" in done.out, "needs odometry" in done.out) == (1, True, True)
+    assert "Mark where" not in done.out

@@ -377,3 +377,7 @@ def test_what_a_person_sees_of_a_plan_is_tidy_and_what_runs_is_exact(chatrobot: 
     assert "51.42857142857143" in exact
     assert "turn left 51.4 deg" in shown
     assert "51.428" not in shown
+
+
+def test_progress_is_no_part_of_what_a_pipe_gets(chatrobot: Command) -> None:
+    assert "%" not in chatrobot("do", "forward 2 m", "--fast", "--world", "empty").out

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from tests.dialogue.scripted_model import ModelTalk
@@ -11,6 +13,7 @@ from tests.link.link_rigs import SimulatedRig, events_until, finished, send_plan
 from tests.motion.test_stream import stream, wait_s
 
 from chatrobot.cli.human import HumanPrinter
+from chatrobot.cli.json_lines import Output
 from chatrobot.core.events import Finished, Progress, Rehearsed, Started
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.dialogue.observations import measured
@@ -103,25 +106,14 @@ def test_a_models_runs_are_summed() -> None:
     assert "drove 0.80 m of 0.80 m" in model.do("please do something nice").reply
 
 
-class Terminal:
-    """Notes what is written."""
-
-    is_terminal, is_broken = True, False
-
-    def __init__(self) -> None:
-        self.written = ""
-
-    def write(self, text: str) -> None:
-        self.written += text
-
-
 def status(fraction: float | None, driven_m: float) -> str:
-    terminal = Terminal()
-    printer = HumanPrinter(terminal)  # type: ignore[arg-type]
-    printer.show(Rehearsed(1, True, 60.0, 6.0, ORIGIN), "en")
-    printer.show(Started(1), "en")
-    printer.show(Progress(1, 1, 1, fraction, Pose(driven_m), Twist(0.3)), "en")
-    return terminal.written.rpartition("\x1b[K")[2]
+    printer, told = HumanPrinter(Output()), io.StringIO()
+    told.isatty = lambda: True  # type: ignore[method-assign]
+    with patch("sys.stderr", told), patch.dict("os.environ", TERM="xterm"):
+        printer.show(Rehearsed(1, True, 60.0, 6.0, ORIGIN), "en")
+        printer.show(Started(1), "en")
+        printer.show(Progress(1, 1, 1, fraction, Pose(driven_m), Twist(0.3)), "en")
+    return told.getvalue().rpartition("\x1b[K")[2]
 
 
 def test_a_person_sees_a_total_only_where_there_is_one() -> None:

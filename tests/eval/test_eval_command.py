@@ -141,8 +141,8 @@ def test_on_a_terminal_it_says_how_many_are_done_from_the_first_moment(
         encoding="utf-8",
         timeout=PATIENCE_S,
     )
-    child.expect_exact("\r0 of 5\x1b[K")
-    child.expect(r"[1-5] of 5, \d+ s to go ")
+    child.expect_exact("\r\x1b[K0 of 5")
+    child.expect(r"[1-5] of 5, \d+ s to go")
     child.expect(pexpect.EOF)
     assert child.before is not None
     last = child.before.rsplit("\r\x1b[K", 1)[1]

@@ -191,9 +191,10 @@ def test_a_terminal_is_told_how_much_has_been_read_and_nobody_else(
     read_recording(str(recorded[0]))
     assert capsys.readouterr().err == ""
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm")
     read_recording(str(recorded[0]))
     *told, last = capsys.readouterr().err.split("\r")[1:]
-    shares = [int(line.removeprefix("drive.mcap: ").removesuffix("%\033[K")) for line in told]
+    shares = [int(line.removeprefix("\033[Kdrive.mcap: ").removesuffix("%")) for line in told]
     assert len(shares) > 1
     assert shares == sorted(shares)
     assert shares[-1] > 50

@@ -57,12 +57,19 @@ def run(args: argparse.Namespace) -> int:
     profile = load_profile(args.robot, folders)
     if args.reset:
         return _reset(profile, args.robot, folders[0])
+    if not profile.has_odometry:
+        print(_phrases()["without_odometry"].format(robot=args.robot))
+        return FAILED
     setup = replace(setup_from(args, options=Options(), world="empty"), yes=True)
-    truth = Truth(printer_for(args)) if setup.on in SIMULATED else None
-    setup = replace(setup, trace=truth is not None)
-    with Conversation(setup, truth or printer_for(args), Approver(can_ask=False)) as conversation:
-        dialogue = Dialogue(conversation, truth)
+    is_simulated = setup.on in SIMULATED
+    truth = Truth(printer_for(args))
+    setup = replace(setup, trace=is_simulated)
+    with Conversation(setup, truth, Approver(can_ask=False)) as conversation:
+        dialogue = Dialogue(conversation, truth if is_simulated else None)
         try:
+            if not (is_simulated or _hears_odometry(dialogue, truth)):
+                dialogue.say("no_odometry")
+                return FAILED
             return _calibrate(dialogue, profile, args.robot, folders[0])
         except Left:
             return STOPPED
@@ -80,11 +87,12 @@ class DoesNotFit(Exception):  # noqa: N818
 
 
 class Truth:
-    """A `Printer` that takes the true poses of a simulated robot for itself."""
+    """A `Printer` that takes the true poses of a simulated robot for itself, and can keep to what fails."""
 
     def __init__(self, printer: Printer) -> None:
         self._printer = printer
         self._poses: list[TruePose] = []
+        self.tells_failures_alone = False
 
     @property
     def is_broken(self) -> bool:
@@ -99,7 +107,7 @@ class Truth:
         """Keep a true pose; show any other event."""
         if isinstance(event, TruePose):
             self._poses.append(event)
-        else:
+        elif not self.tells_failures_alone or (isinstance(event, Result) and event.outcome != "completed"):
             self._printer.show(event, language)
 
     def begin(self) -> None:
@@ -172,6 +180,14 @@ class Dialogue:
         if is_stop(line):
             self.conversation.stop(line)
         self._lines.put(line)
+
+
+def _hears_odometry(dialogue: Dialogue, printer: Truth) -> bool:
+    """Have the robot stand for a moment: without odometry that fails, and nobody has fetched a tape yet."""
+    printer.tells_failures_alone = True
+    result = dialogue.drive("wait 0.1 s")
+    printer.tells_failures_alone = False
+    return result.outcome == "completed"
 
 
 def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Path) -> int:

@@ -7,19 +7,18 @@ import math
 from chatrobot.cli.console.words import Words
 from chatrobot.cli.json_lines import Output
 from chatrobot.cli.narrator import Narrator
+from chatrobot.cli.status_line import StatusLine
 from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import fixed, one_line, printable
 from chatrobot.language.interpretation import LanguageCode
 
-_CLEAR_LINE = "\r\x1b[K"
-
 
 class HumanPrinter:
     """A `Printer` for people. Sentences come in the language of the question; the rest is numbers with units.
 
-    `shows_pose`: at a terminal its last line says where the robot is, in place of how far it is.
+    `shows_pose`: the status line says where the robot is, in place of how far it is.
     """
 
     def __init__(self, output: Output, *, shows_pose: bool = False) -> None:
@@ -28,7 +27,7 @@ class HumanPrinter:
         self._words = Words()
         self._narrator = Narrator(self._words, plain=True)
         self._way = _Way()
-        self._has_status = False
+        self._status = StatusLine()
         self._streamed = 0
         self._said: dict[int, str] = {}
         self._turn = self._headed = 0
@@ -60,33 +59,18 @@ class HumanPrinter:
             case events.Started():
                 self._way.start(event.pose)
             case events.Telemetry() if self._shows_pose:
-                self._show_status(f"{self._words.pose(event.pose)}  {event.twist.speed_mps:.2f} m/s")
+                self._status.show(f"  {self._words.pose(event.pose)}  {event.twist.speed_mps:.2f} m/s")
             case events.Progress() if not self._shows_pose:
-                self._show_progress(event)
+                self._status.show(f"  {self._way.advance(event)}")
             case events.TruePose():
                 x, y, yaw = fixed(event.x_m, 3), fixed(event.y_m, 3), fixed(math.degrees(event.yaw_rad), 1)
                 self._line(f"  {event.t_s:8.2f} s  x {x} m  y {y} m  {yaw}°")
         for line in self._narrator.tell(event):
             self._line(f"{line.lead}{line.text}")
 
-    def _show_progress(self, event: events.Progress) -> None:
-        metres = self._way.advance(event.pose)
-        status = self._way.text(event.fraction)
-        if not self._show_status(status) and metres:
-            self._line(f"  {status}")
-
     def clear(self) -> None:
-        """Clear the last line, where it says something that passes."""
-        if self._has_status:
-            self._has_status = False
-            self._output.write(_CLEAR_LINE)
-
-    def _show_status(self, status: str) -> bool:
-        """Say it in the last line of a terminal; false where there is none."""
-        if self._output.is_terminal:
-            self._output.write(f"{_CLEAR_LINE}  {status}")
-            self._has_status = True
-        return self._output.is_terminal
+        """Clear the status line."""
+        self._status.clear()
 
     def _line(self, text: str) -> None:
         self.clear()
@@ -109,19 +93,13 @@ class _Way:
         """Begin to measure there, where the robot begins to move."""
         self._last, self._start_yaw_rad, self._driven_m = pose, pose.yaw_rad, 0.0
 
-    def advance(self, pose: Pose) -> bool:
-        """Take in where the robot is now; True when another whole metre lies behind it."""
-        before_m = self._driven_m
+    def advance(self, event: events.Progress) -> str:
+        """Take in where the robot is; how far, and which turn; of how much, and the share, where the whole is known."""
         if self._last is not None:
-            self._driven_m += self._last.distance_to(pose)
-        self._last = pose
-        return math.floor(self._driven_m) > math.floor(before_m)
-
-    def text(self, fraction: float | None) -> str:
-        """Say how far, and which turn; of how much, and the share, where the whole is known."""
-        turned_deg = math.degrees(self._last.yaw_rad - self._start_yaw_rad) if self._last is not None else 0.0
-        rounded = fixed(turned_deg, 0)
+            self._driven_m += self._last.distance_to(event.pose)
+        self._last = event.pose
+        rounded = fixed(math.degrees(event.pose.yaw_rad - self._start_yaw_rad), 0)
         turned = f"{'+' if float(rounded) > 0 else ''}{rounded}°"
-        if fraction is None:
+        if event.fraction is None:
             return f"{self._driven_m:.2f} m  {turned}"
-        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned}  {fraction:4.0%}"
+        return f"{self._driven_m:.2f} / {self.planned_m:.2f} m  {turned}  {event.fraction:4.0%}"

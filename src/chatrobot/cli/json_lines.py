@@ -73,11 +73,6 @@ class Output:
             self._broken = any(state & (select.POLLERR | select.POLLNVAL) for _, state in self._poll.poll(0))
         return self._broken
 
-    @property
-    def is_terminal(self) -> bool:
-        """A person may look at it."""
-        return os.isatty(STDOUT)
-
 
 class Printer(Protocol):
     """Shows events as they come."""

@@ -14,6 +14,7 @@ from chatrobot.cli.entry import STOPPED
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.recorder import data_folder, require_extra
 from chatrobot.cli.signals import SignalWatch
+from chatrobot.cli.status_line import status_line
 from chatrobot.core.errors import UsageError
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.topic_link import CHATGPT_NODE, EVENTS, TELEMETRY, USER_INPUT
@@ -84,27 +85,23 @@ def _watch(recorder: Recorder, title: str) -> int:
     ended = threading.Event()
     began_s = heard_s = time.monotonic()
     heard, is_told = 0, False
-    with SignalWatch(lambda _: ended.set()):
+    with SignalWatch(lambda _: ended.set()), status_line() as line:
         while not (ended.wait(1.0) or recorder.is_over):
             if recorder.message_count != heard:
                 heard, heard_s, is_told = recorder.message_count, time.monotonic(), False
             elif time.monotonic() - heard_s > SILENT_S and not is_told:
                 is_told = True
-                print(f"{_line_end()}{_SILENCE.format(SILENT_S)}", file=sys.stderr, flush=True)
-            if sys.stdout.isatty():
-                print(f"\r\x1b[K  {_progress(recorder, began_s)}", end="", flush=True)
+                line.clear()
+                print(_SILENCE.format(SILENT_S), file=sys.stderr, flush=True)
+            line.show(f"  {_progress(recorder, began_s)}")
     recorder.close()
-    print(f"{_line_end()}{_progress(recorder, began_s)} in {recorder.path}", flush=True)
+    print(f"{_progress(recorder, began_s)} in {recorder.path}", flush=True)
     has_failed = False
     for notice in recorder.notices():
         if notice.reason.code != "recording":
             has_failed = True
             print(render_reason(notice.reason, language_of_environment()), file=sys.stderr)
     return 1 if has_failed and not ended.is_set() else STOPPED
-
-
-def _line_end() -> str:
-    return "\r\x1b[K" if sys.stdout.isatty() else ""
 
 
 def _progress(recorder: Recorder, began_s: float) -> str:

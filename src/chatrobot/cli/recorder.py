@@ -14,6 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from chatrobot.cli.status_line import status_line
 from chatrobot.compose import Connection, OnEvent, Setup, connect
 from chatrobot.core.errors import UsageError, WireError
 from chatrobot.core.events import Event, Notice
@@ -86,20 +87,17 @@ def read_recording(name: str) -> tuple[Recording, str]:
 
 @contextlib.contextmanager
 def _progress(name: str) -> Iterator[Callable[[float], None]]:
-    """Show how much of that file has been read, on one line of the terminal that errors go to, while it is entered."""
-    shown_s = began_s = time.monotonic()
+    """Show how much of that file has been read, while it is entered."""
+    shown_s = time.monotonic()
 
     def tell(share: float) -> None:
         nonlocal shown_s
-        if (now_s := time.monotonic()) - shown_s >= SHOWN_EVERY_S and sys.stderr.isatty():
+        if (now_s := time.monotonic()) - shown_s >= SHOWN_EVERY_S:
             shown_s = now_s
-            print(f"\r{name}: {share:.0%}\033[K", end="", file=sys.stderr, flush=True)
+            line.show(f"{name}: {share:.0%}")
 
-    try:
+    with status_line() as line:
         yield tell
-    finally:
-        if shown_s > began_s:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
 def _only_file(folder: Path) -> Path:

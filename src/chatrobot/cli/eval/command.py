@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections import Counter
 from collections.abc import Sequence
@@ -15,6 +14,7 @@ from chatrobot.cli.choices import setup_from
 from chatrobot.cli.eval.corpus import CATEGORIES, Item, load_corpus
 from chatrobot.cli.eval.run import Judged, run_items
 from chatrobot.cli.json_lines import json_line
+from chatrobot.cli.status_line import StatusLine, status_line
 from chatrobot.dialogue.options import Options
 
 _REPORTED_EVERY_S = 0.2
@@ -30,11 +30,12 @@ def run(args: argparse.Namespace) -> int:
     items = [item for file in args.files for item in load_corpus(Path(file)) if _is_chosen(item, args.only)]
     began_s = time.monotonic()
     judged: list[Judged] = []
-    with _Progress(len(items), began_s) as progress:
+    with status_line() as line:
+        progress = _Progress(line, len(items), began_s)
         for one in run_items(items, setup):
             judged.append(one)
             if args.json:
-                progress.clear()
+                line.clear()
                 print(json_line(item_json(one)), end="", flush=True)
             progress.show(len(judged))
     if args.json:
@@ -52,36 +53,19 @@ def _is_chosen(item: Item, only: str | None) -> bool:
 
 
 class _Progress:
-    """How many items are done, on one line of the terminal that errors go to; nothing where they go elsewhere.
+    """How many items are done, now and then."""
 
-    The line is there while it is entered.
-    """
-
-    def __init__(self, total_count: int, began_s: float) -> None:
-        self._total = total_count
+    def __init__(self, line: StatusLine, total_count: int, began_s: float) -> None:
+        self._line, self._total = line, total_count
         self._began_s = self._shown_s = began_s
-        self._is_shown = sys.stderr.isatty()
-
-    def __enter__(self) -> _Progress:
-        self._write(f"0 of {self._total}")
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.clear()
+        line.show(f"0 of {total_count}")
 
     def show(self, done_count: int) -> None:
         now_s = time.monotonic()
         if now_s - self._shown_s >= _REPORTED_EVERY_S:
             self._shown_s = now_s
             left_s = (now_s - self._began_s) / done_count * (self._total - done_count)
-            self._write(f"{done_count} of {self._total}, {left_s:.0f} s to go ")
-
-    def clear(self) -> None:
-        self._write("")
-
-    def _write(self, text: str) -> None:
-        if self._is_shown:
-            print(f"\r{text}\033[K", end="", file=sys.stderr, flush=True)
+            self._line.show(f"{done_count} of {self._total}, {left_s:.0f} s to go")
 
 
 def item_json(judged: Judged) -> dict[str, Any]:
