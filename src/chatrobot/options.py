@@ -47,7 +47,7 @@ class Option:
         help: what it does; `helps` has what is said instead in the help of some commands.
         metavar: what stands for its value in the help; empty for a switch.
         kind: how its value is read: str, int, float, or "limit" for a number or `none`.
-        offers: what Tab completes its value with: a key of `cli.completion.OFFERS`, or the values themselves.
+        offers: what Tab completes its value with: a key of `cli.completion.OFFERS`, `files .END`, or the values.
         parameter: the same as a ROS parameter.
     """
 
@@ -148,7 +148,7 @@ OPTIONS = (
     Option("--web", "at a terminal: show the conversation in a browser, too", ("", "replay"), COMMON, False,
         helps={"replay": "show it in a browser"}),
     Option("--record", "record what happens, by default to a new file of the recordings folder; the console and the"
-        " web console do so unasked", (*FACES, "lesson"), COMMON, None, "[FILE.mcap]", offers="files"),
+        " web console do so unasked", (*FACES, "lesson"), COMMON, None, "[FILE.mcap]", offers="files .mcap"),
     Option("--no-record", "record nothing", (*DRIVE, "web", "lesson"), COMMON, False),
     Option("--config-dir", "where places, programs, recordings and robot profiles live",
         (*PLAN, "lesson", "calibrate", "sim", "doctor", "robots", "model", "usage", "record", "replay", *_KEPT),

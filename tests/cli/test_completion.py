@@ -58,9 +58,10 @@ def test_robots_and_programs_of_the_persons_own_are_offered(tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("line", "offered"),
     [
-        (["eval", ""], [FILES]),
-        (["eval", "a.yaml", ""], [FILES]),
-        (["plan", "x", "--png", ""], [FILES]),
+        (["eval", ""], [(":files", ".yaml .yml")]),
+        (["eval", "a.yaml", ""], [(":files", ".yaml .yml")]),
+        (["plan", "x", "--png", ""], [(":files", ".png")]),
+        (["replay", ""], [(":files", ".mcap")]),
         (["do", "--plan", ""], [FILES]),
         (["--config-dir", ""], [FOLDERS]),
         (["program", "run", "square", "--", ""], [FILES]),
@@ -108,6 +109,10 @@ _TYPED = [
     ("chatrobot do --robot turtles\tx", "chatrobot do --robot turtlesim x"),
     ("chatrobot do --robot=turtles\tx", "chatrobot do --robot=turtlesim x"),
     ("chatrobot plan x --png my\t", "chatrobot plan x --png my\\ way.png"),
+    ("chatrobot replay d\t\t", "chatrobot replay drives/one.mcap"),
+    ("chatrobot replay drives/\t", "chatrobot replay drives/one.mcap"),
+    ("chatrobot eval c\t", "chatrobot eval corpus.yml"),
+    ("chatrobot do --plan notes\t", "chatrobot do --plan notes.txt"),
     ("chatrobot model use ope\t\x7f\x7f\x7f\x7fgoo\tgemini", "chatrobot model use google:gemini"),
 ]
 
@@ -119,7 +124,17 @@ def test_tab_completes_in_a_real_shell(shell: str, tmp_path: Path) -> None:
     program = shutil.which(shell)
     if program is None:
         pytest.skip(f"no {shell} here")
-    (tmp_path / "my way.png").touch()
+    (tmp_path / "drives").mkdir()
+    for name in (
+        "my way.png",
+        "my way.txt",
+        "drives/one.mcap",
+        "drives/one.txt",
+        "notes.txt",
+        "corpus.yml",
+        "cat.txt",
+    ):
+        (tmp_path / name).touch()
     options, prepare = _PREPARED[shell]
     terminal = pexpect.spawn(
         program, options, env=shell_environment(tmp_path), cwd=str(tmp_path), encoding="utf-8",
@@ -140,7 +155,9 @@ def test_tab_completes_in_a_real_shell(shell: str, tmp_path: Path) -> None:
 def test_tab_completes_in_fish(tmp_path: Path) -> None:
     if shutil.which("fish") is None:
         pytest.skip("no fish here")
-    (tmp_path / "corpus.yaml").touch()
+    (tmp_path / "folder").mkdir()
+    for name in ("corpus.yaml", "notes.txt"):
+        (tmp_path / name).touch()
 
     def offered(line: str) -> list[str]:
         script = f"chatrobot completion fish | source; complete -C '{line}'"
@@ -153,4 +170,5 @@ def test_tab_completes_in_fish(tmp_path: Path) -> None:
     assert offered("chatrobot wo") == ["world", "worlds"]
     assert offered("chatrobot do --robot turtles") == ["turtlesim"]
     assert offered("chatrobot do --robot=turtles") == ["--robot=turtlesim"]
-    assert offered("chatrobot eval ") == ["corpus.yaml"]
+    assert offered("chatrobot eval ") == ["corpus.yaml", "folder/"]
+    assert offered("chatrobot eval c") == ["corpus.yaml"]

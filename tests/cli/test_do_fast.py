@@ -381,3 +381,9 @@ def test_what_a_person_sees_of_a_plan_is_tidy_and_what_runs_is_exact(chatrobot: 
 
 def test_progress_is_no_part_of_what_a_pipe_gets(chatrobot: Command) -> None:
     assert "%" not in chatrobot("do", "forward 2 m", "--fast", "--world", "empty").out
+
+
+@pytest.mark.parametrize("text", ["stop", "emergency stop"])
+def test_a_stop_word_is_understood_where_nothing_can_be_stopped(chatrobot: Command, text: str) -> None:
+    done = chatrobot("plan", text, "--json")
+    assert (done.code, done.events[-1]["outcome"]) == (0, "answered")

@@ -201,11 +201,11 @@ def _do(parser: argparse.ArgumentParser) -> None:
 def _plan(parser: argparse.ArgumentParser) -> None:
     _add(parser, "text", metavar="TEXT", help="what the robot would have to do")
     _add(parser, "--explain", action="store_true", help="say how it was read, and what is the next likeliest")
-    _add(parser, "--png", "files", metavar="FILE", help="draw the way it would take into a picture")
+    _add(parser, "--png", "files .png", metavar="FILE", help="draw the way it would take into a picture")
 
 
 def _eval(parser: argparse.ArgumentParser) -> None:
-    _add(parser, "files", "files", nargs="+", metavar="FILE", help="a corpus in YAML")
+    _add(parser, "files", "files .yaml .yml", nargs="+", metavar="FILE", help="a corpus in YAML")
     _add(parser, "--only", choices=("odd", "even"), help="only the items whose running number is so")
     _add(parser, "--misses", action="store_true", help="list what was wrong and what was asked back")
 
@@ -266,7 +266,7 @@ def _usage(parser: argparse.ArgumentParser) -> None:
 
 def _fake_model(parser: argparse.ArgumentParser) -> None:
     answers = "what it answers: docs/models.md has the form"
-    _add(parser, "script", "files", metavar="SCRIPT.yaml", help=answers)
+    _add(parser, "script", "files .yaml .yml", metavar="SCRIPT.yaml", help=answers)
     _add(parser, "--port", type=port, default=8399, help="0: any that is free (default: 8399)")
     _add(parser, "--host", default="127.0.0.1", help="where to listen; beyond loopback a token is asked for")
 
@@ -289,16 +289,16 @@ def _web(parser: argparse.ArgumentParser) -> None:
 
 def _record(parser: argparse.ArgumentParser) -> None:
     new = "the new file (default: one in the recordings folder)"
-    _add(parser, "file", "files", nargs="?", default="", metavar="FILE.mcap", help=new)
+    _add(parser, "file", "files .mcap", nargs="?", default="", metavar="FILE.mcap", help=new)
 
 
 def _replay(parser: argparse.ArgumentParser) -> None:
-    _add(parser, "file", "files", metavar="FILE.mcap", help="a recording")
+    _add(parser, "file", "files .mcap", metavar="FILE.mcap", help="a recording")
     _add(parser, "--speed", type=positive, default=1.0, metavar="X", help="times as fast (default: 1)")
 
 
 def _report(parser: argparse.ArgumentParser) -> None:
-    _add(parser, "file", "files", metavar="FILE", help="the recording, an .mcap file")
+    _add(parser, "file", "files .mcap", metavar="FILE", help="the recording, an .mcap file")
     kinds = {
         "html": "a page that needs nothing else (the default: FILE.html beside the recording)",
         "svg": "one figure: map and speeds",
@@ -307,7 +307,9 @@ def _report(parser: argparse.ArgumentParser) -> None:
         "csv": "poses and commands, a row a message",
     }
     for kind, text in kinds.items():
-        _add(parser, f"--{kind}", "files", nargs="?", const="", default=None, metavar="OUT", help=text)
+        _add(
+            parser, f"--{kind}", f"files .{kind}", nargs="?", const="", default=None, metavar="OUT", help=text
+        )
     _add(parser, "--language", choices=LANGUAGES, default="", help="its language (default: the recording's)")
 
 
@@ -331,7 +333,7 @@ def _program(parser: argparse.ArgumentParser) -> None:
             _add(action, "--name", dest="called", default="", metavar="NAME", help="what to call it")
         if name == "edit":
             source = "take this source, ask no editor"
-            _add(action, "--file", "files", default="", metavar="FILE.py", help=source)
+            _add(action, "--file", "files .py", default="", metavar="FILE.py", help=source)
 
 
 def _ros_args(parser: argparse.ArgumentParser) -> None:

@@ -2,8 +2,8 @@
 
 The scripts in `shells` know no command of ours: at each Tab they run `chatrobot completion words -- WORDS`, with the
 words up to the cursor, and offer its lines. A line is a word, or a word, a tab and what it means; `:files` and
-`:folders` stand for what the shell itself completes. So Tab knows what this version takes, and the robots and programs
-of today.
+`:folders` stand for what the shell itself completes; behind `:files` and a tab, how those files may end. So Tab
+knows what this version takes, and the robots and programs of today.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ class Offer(NamedTuple):
 
 
 FILES, FOLDERS = Offer(":files"), Offer(":folders")
+PROFILES, WORLDS, PROGRAMS = Offer(":files", ".toml"), Offer(":files", ".yaml .yml"), Offer(":files", ".py")
+_OF_THE_SHELL = (FILES.word, FOLDERS.word)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -57,14 +59,14 @@ def offers_for(words: Sequence[str]) -> list[Offer]:
         option, _, value = current.partition("=")
         line.take(option)
         return [
-            each if each in (FILES, FOLDERS) else each._replace(word=f"{option}={each.word}")
+            each if each.word in _OF_THE_SHELL else each._replace(word=f"{option}={each.word}")
             for each in _beginning(line.offers(), value)
         ]
     return _beginning(line.options() if current.startswith("-") else line.offers(), current)
 
 
 def _beginning(offers: Iterator[Offer], current: str) -> list[Offer]:
-    return [each for each in offers if each in (FILES, FOLDERS) or each.word.startswith(current)]
+    return [each for each in offers if each.word in _OF_THE_SHELL or each.word.startswith(current)]
 
 
 class _Line:
@@ -127,27 +129,32 @@ class _Line:
             yield from (Offer(str(each)) for each in action.choices)
         else:
             named = getattr(action, "offers", ())
-            yield from map(Offer, named) if isinstance(named, tuple) else OFFERS[named](self._values)
+            if isinstance(named, tuple):
+                yield from map(Offer, named)
+            elif named.startswith("files"):
+                yield FILES._replace(meaning=named.removeprefix("files").lstrip())
+            else:
+                yield from OFFERS[named](self._values)
 
 
 def _robots(args: argparse.Namespace) -> Iterator[Offer]:
     from chatrobot.cli.lists import robot_titles
 
-    yield FILES
+    yield PROFILES
     yield from (Offer(*each) for each in robot_titles(args))
 
 
 def _worlds(_: argparse.Namespace) -> Iterator[Offer]:
     from chatrobot.sim.load import world_names
 
-    yield FILES
+    yield WORLDS
     yield from map(Offer, world_names())
 
 
 def _lessons(_: argparse.Namespace) -> Iterator[Offer]:
     from chatrobot.lessons.sheet import lesson_names
 
-    yield FILES
+    yield WORLDS
     yield from map(Offer, lesson_names())
 
 
@@ -169,9 +176,9 @@ OFFERS: dict[str, Callable[[argparse.Namespace], Iterable[Offer]]] = {
     "worlds": _worlds,
     "lessons": _lessons,
     "programs": _programs,
-    "programs or files": lambda args: (FILES, *_programs(args)),
+    "programs or files": lambda args: (PROGRAMS, *_programs(args)),
     "models": _models,
-    "files": lambda _: (FILES,),
     "folders": lambda _: (FOLDERS,),
 }
-"""What an argument's value is completed with, by the name that `options.offer` was given."""
+"""What an argument's value is completed with, by the name that `options.offer` was given: one of these, `files`, or
+`files` and how they may end."""

@@ -13,8 +13,8 @@ from chatrobot.options import OPTIONS
 Actions = dict[str, tuple[str, dict[str, str]]]
 """The name of each action, what it does, and its arguments; one in brackets may be left out."""
 _OFFERED = {
-    ("", "NAME"): "programs", ("run", "NAME"): "programs or files", ("", "DIR"): "folders", ("", "FILE"): "files",
-    ("", "WORLD"): "worlds", ("", "OUT.svg|OUT.png"): "files",
+    ("", "NAME"): "programs", ("run", "NAME"): "programs or files", ("", "DIR"): "folders",
+    ("", "FILE"): "files .yaml .yml", ("", "WORLD"): "worlds", ("", "OUT.svg|OUT.png"): "files .svg .png",
 }  # fmt: skip
 """What Tab completes an argument of an action with."""
 _A_WORLD = "a world by its name, a world file, or a map.yaml of ROS"

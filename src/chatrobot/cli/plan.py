@@ -9,14 +9,15 @@ from pathlib import Path
 
 from chatrobot.cli.choices import setup_from
 from chatrobot.cli.json_lines import printer_for
-from chatrobot.compose import connect
+from chatrobot.compose import Connection, connect
 from chatrobot.core.errors import PlanTextError, UsageError
-from chatrobot.core.events import EXIT_CODES, Event, Rehearsed
+from chatrobot.core.events import EXIT_CODES, Event, Rehearsed, Result
 from chatrobot.dialogue.options import Options
 from chatrobot.language.phrases import render_reason
 from chatrobot.link.processes import SIMULATED
 from chatrobot.plan.json_form import plan_from_json
 from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.reflex import is_stop
 
 
 def run(args: argparse.Namespace) -> int:
@@ -30,35 +31,48 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"{args.png!r} is not a PNG file", where="--png", allowed="a name that ends in .png")
     printer = printer_for(args)
     rehearsed: list[Rehearsed] = []
+    results: list[Result] = []
 
     def on_event(event: Event) -> None:
         if isinstance(event, Rehearsed):
             rehearsed.append(event)
+        if isinstance(event, Result) and is_stop(args.text):  # there was nothing to be stopped
+            event = replace(
+                event, outcome="answered", reply=session.understanding.say("only_stops", args.text)
+            )
+        if isinstance(event, Result):
+            results.append(event)
         printer.show(event, session.understanding.language)
 
     setup = setup_from(args, options=Options(rehearse_only=True), programs=True)
     setup = replace(setup, fast=setup.on in SIMULATED, trace=False)
     connection = connect(setup, lambda event: on_event(event))
     session = connection.session
-    result = session.do(args.text)
+    session.do(args.text)
     connection.close()
     if args.explain:
         print("\n".join(session.understanding.why()), file=sys.stderr if args.json else sys.stdout)
     if png is not None:
-        if rehearsed:
-            from chatrobot.cli.draw import draw_plan
+        _draw(png, args.text, connection, rehearsed)
+    return EXIT_CODES[results[-1].outcome]
 
-            draw_plan(
-                png,
-                world=connection.world,
-                profile=connection.profile,
-                rehearsed=rehearsed[-1],
-                title=args.text,
-                words=lambda finding: render_reason(finding.reason, session.understanding.language),
-            )
-        else:
-            print("chatrobot: there is no plan to draw", file=sys.stderr)
-    return EXIT_CODES[result.outcome]
+
+def _draw(png: Path, title: str, connection: Connection, rehearsed: list[Rehearsed]) -> None:
+    """Draw the last plan that was rehearsed."""
+    if not rehearsed:
+        print("chatrobot: there is no plan to draw", file=sys.stderr)
+        return
+    from chatrobot.cli.draw import draw_plan
+
+    language = connection.session.understanding.language
+    draw_plan(
+        png,
+        world=connection.world,
+        profile=connection.profile,
+        rehearsed=rehearsed[-1],
+        title=title,
+        words=lambda finding: render_reason(finding.reason, language),
+    )
 
 
 MOST_BYTES = 65_536

@@ -7,7 +7,8 @@ _chatrobot() {
         word="${line%%$'\t'*}" meaning="${line#*$'\t'}"
         case $word in
             '') ;;
-            :files) _files ;;
+            :files)
+                if [[ $meaning == :files ]]; then _files; else _files -g "${meaning//./*.}"; fi ;;
             :folders) _files -/ ;;
             *:) begun+=("${word//:/\\:}:$meaning") ;;
             "$line") whole+=("${word//:/\\:}") ;;
