@@ -6,6 +6,8 @@ import pytest
 
 from tests.language.test_usual import done
 
+_TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
+
 
 @pytest.mark.parametrize(
     ("turns", "plan"),
@@ -256,6 +258,35 @@ from tests.language.test_usual import done
         ),
         (("Right, that's done. go back 1 m",), "drive 1 m back"),
         (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
+        (("turn yourself around so you're facing us, would you?",), "turn left 180 deg"),
+        (("spin around so you're facing the other way",), "turn left 180 deg"),
+        (("turn left 30. sorry, my left, so your right",), "turn right 30 deg"),
+        (("pretend you're a crab and slide 1 m left",), "drive 1 m left"),
+        (("forward 30 cm, slide left 20 cm, that's one stair, and I'd like two of them",), _TWO_STAIRS),
+        (
+            ("before you turn right go forward 1 m, and once you've turned do 60 cm more",),
+            "drive 1 m; turn right 90 deg; drive 0.6 m",
+        ),
+        (("go forward 2 m", "now the same, only backwards", "one more like that last one"), "drive 2 m back"),
+        (("turn left 60 degrees", "take 15 back off of it"), "turn right 15 deg"),
+        (("remember this as square", "go forward 1 m", "go to the square"), 'go to 0 0 named "square"'),
+        (("记住这里是圆圈", "前进一米", "回到圆圈那里"), 'go to 0 0 named "圆圈"'),
+        (("转两圈吧，往右转哦",), "turn right 720 deg"),
+        (("向左绕半个圆，半径呢，就一米吧",), "arc left 180 deg radius 1 m"),
+        (("三市尺就是一米，你往前走六市尺",), "drive 2 m"),
+        (("往前走三米，三米怕是太远了，两米吧",), "drive 2 m"),
+        (("往旁边儿挪四十公分", "左边"), "drive 0.4 m left"),
+        (("nimm 0,4 m/s und fahr damit fünf Sekunden",), "drive 5 s at 0.4 m/s"),
+        (("dreh dich 30 Grad nach rechts", "nimm 10 Grad davon wieder weg"), "turn left 10 deg"),
+        (("geh einen halben Meter nach links, quasi im Krebsgang",), "drive 0.5 m left"),
+        (
+            ("merk dir das hier als Lager", "fahr 2 m", "zurück zum Lager, aber nur den halben Weg"),
+            "go to 1 0",
+        ),
+        (
+            ("fahr 1 m", "fahr 20 cm", "die ganze Strecke wieder rückwärts"),
+            "drive 0.2 m back; drive 1 m back",
+        ),
         (("a car is coming at you, go back 1 m",), "drive 1 m back"),
         (("nobody move. robot, forward 1 m",), "drive 1 m"),
         (("drive 2 m", "shave 20 cm off"), "drive 0.2 m back"),

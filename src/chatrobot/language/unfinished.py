@@ -46,7 +46,7 @@ def check_consistent(text: str, language: str, names: Collection[Key] = ()) -> N
     Raises:
         Unclear: for such a text.
     """
-    known = [" ".join(name) for name in names]
+    known = [sep.join(name) for name in names for sep in (" ", "")]  # the second: 圆圈 is two words
     for name in _ASKED:
         _check(text, language, name, known if name == "untaught" else ())
 
@@ -65,7 +65,7 @@ def check_unconditional(text: str, language: str) -> None:
 def _check(text: str, language: str, name: str, known: Collection[str] = ()) -> None:
     found = filter(None, (rule.search(text) for rule in _rules(language, name)))
     if any(not any(word in part.group() for word in known) for part in found):
-        raise Unclear(_ASKED[name], text[:_SHOWN], is_final=name == "unread")
+        raise Unclear(_ASKED[name], text[:_SHOWN], is_final=name in ("unread", "untaught"))
 
 
 @cache
