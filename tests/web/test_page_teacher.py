@@ -99,9 +99,10 @@ def test_a_link_is_copied_where_the_page_is_not_secure(pupils: RunningClass, tea
 
 def test_at_the_end_of_a_lesson_a_button_goes_back_to_a_task(pupils: RunningClass, browsing: Browser) -> None:
     page = open_page(browsing, f"{pupils.origin}/#{pupils.pupils_tokens()[2]}")
-    for number in range(3, 5):
-        page.get_by_role("button", name="Leave it out").click()
-        expect(page.locator("#turns .line").last).to_contain_text(f"Task {number} is left out")
+    page.locator("#say").fill("/task 4")
+    page.keyboard.press("Enter")
+    expect(page.locator("#lesson-head")).to_contain_text("Task 4 of 4")
+    page.get_by_role("button", name="Leave it out").click()
     page.get_by_role("button", name="Back to task 2").click()
     expect(page.locator("#lesson-head")).to_have_text("Task 2 of 4: Backwards")
     expect(page.get_by_role("button", name="Hint")).to_be_visible()
@@ -115,3 +116,14 @@ def test_a_command_of_the_terminal_is_answered_with_what_a_page_has_for_it(
         page.locator("#say").fill(typed)
         page.keyboard.press("Enter")
         expect(page.locator("#turns .line").last).to_contain_text(answer)
+
+
+def test_a_pupil_reads_that_the_teacher_releases_an_emergency_stop(
+    pupils: RunningClass, teacher: Page, browsing: Browser
+) -> None:
+    page = open_page(browsing, f"{pupils.origin}/#{pupils.pupils_tokens()[0]}")
+    page.get_by_role("button", name="Emergency stop").click()
+    expect(page.locator("#release-banner")).to_contain_text("nothing moves until your teacher releases it")
+    expect(page.locator("#release")).to_be_hidden()
+    teacher.get_by_role("button", name="Release emergency stop: Pupil 1").click()
+    expect(page.locator("#release-banner")).to_be_hidden()

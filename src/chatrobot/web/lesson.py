@@ -99,8 +99,10 @@ class RoomLesson:
             about = describe_lesson(run, self._robot_title, language)[:-1] if run.number == 1 else []
         else:
             *lines, head = describe_end(run, language)
+        shown: dict[str, Any] = {"head": head, "lines": lines, "about": about}
+        verdict = _verdict_facts(self._last, language) if self._last is not None else None
         over, count = run.task is None, len(run.records)
-        return {"is": "lesson", "over": over, "count": count, "head": head, "lines": lines, "about": about}
+        return {"is": "lesson", "over": over, "count": count, **shown, "verdict": verdict}
 
     def facts(self, language: str) -> dict[str, Any]:
         """Return where this pupil is, for whoever teaches."""
@@ -136,6 +138,7 @@ class RoomLesson:
             self._tell(lambda language: describe_hint(task, language))
         elif command == "/skip":
             self.run.skip()
+            self._last = None
             self._tell(lambda language: say(language, "skipped", number=number))
         else:
             self._begin_anew(face)
@@ -173,6 +176,7 @@ class RoomLesson:
         while self.run.task is not None and self.run.number < number:
             self.run.skip()
         if self.run.number != was:
+            self._last = None
             self._tell(lambda language: web_words(language, "teacher_moved", number=number))
             self._show()
 

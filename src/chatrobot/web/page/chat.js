@@ -97,7 +97,7 @@ function unask(entry) {
 
 function answer(entry, message) {
   return () => {
-    if (send(message)) unask(entry);
+    if (send(message) && state.steers) unask(entry); // of who only watches it is refused, and the question stays
     byId("say").focus();
   };
 }

@@ -69,7 +69,16 @@ function drawState() {
   setText(chip, t(key));
   byId("resume").hidden = pausedTurn === null;
   byId("pause").hidden = pausedTurn !== null;
-  byId("release-banner").hidden = !isLatched || !state.may.has("release");
+  drawLatched();
+}
+
+/** Who may not release an emergency stop reads who does. */
+function drawLatched() {
+  const mayRelease = state.may.has("release");
+  const elsewhere = state.hello && state.hello.role === "pupil" ? "latched_pupil" : "latched_elsewhere";
+  setText(byId("latched"), t(mayRelease ? "latched" : elsewhere));
+  byId("release").hidden = !mayRelease;
+  byId("release-banner").hidden = !isLatched;
 }
 
 function limit(text) {

@@ -18,14 +18,14 @@ function show(message) {
   setText(byId("lesson-head"), message.head);
   const lines = [...message.about.map((line) => make("p", "hint", line)), ...message.lines.map((line) => make("p", "", line))];
   byId("lesson-lines").replaceChildren(...lines);
-  if (over && !message.over) setText(verdict, "");
+  showVerdict(message.verdict);
   ({ over, count } = message);
   showButtons();
 }
 
-function showVerdict(message) {
-  verdict.dataset.state = message.state;
-  setText(verdict, `${message.state === "passed" ? "✓" : "→"} ${message.text}`);
+function showVerdict(found) {
+  verdict.dataset.state = found ? found.state : "";
+  setText(verdict, found ? `${found.state === "passed" ? "✓" : "→"} ${found.text}` : "");
 }
 
 /** The commands of a task; at the end of the lesson the ways back to each. They stay the same ones while they say the same. */
@@ -42,10 +42,8 @@ function showButtons() {
 /** Begin: hear what there is to show. */
 export function startLesson() {
   on("lesson", show);
-  on("verdict", showVerdict);
   on("open", () => {
     panel.hidden = true;
-    setText(verdict, "");
   });
   onLanguage(showButtons);
 }

@@ -61,7 +61,7 @@ function describe() {
   byId("plan-run").hidden = !plan.isEdited && !plan.waits;
   setText(byId("plan-run"), t(plan.isEdited ? "plan_try" : "do_it"));
   setText(byId("plan-edit"), t(plan.lines.length ? "edit" : "plan_write"));
-  byId("plan-edit").hidden = plan.isEdited;
+  byId("plan-edit").hidden = plan.isEdited || (plan.waits && plan.isProgram); // a program has its own editor
   byId("plan-drop").hidden = !plan.isEdited && !plan.waits;
   setText(byId("plan-drop"), t(plan.isEdited ? "edit_drop" : "cancel"));
   lines.hidden = plan.isEdited || !plan.lines.length;
@@ -89,6 +89,7 @@ function run() {
     message = plan.edits ? { do: "edit", plan_text: planText, turn: plan.edits } : { do: "say_plan", plan_text: planText };
   }
   if (!send(message)) return;
+  notice("");
   if (plan.isEdited) show(0, planText.split("\n")); // one that cannot be read can be mended
   plan.isSent = plan.isEdited;
   plan.isEdited = plan.waits = false;
