@@ -335,3 +335,15 @@ def test_who_only_watches_puts_no_obstacle_there(rig: WebRig) -> None:
     watcher.say("obstacle", name="box", x_m=1.0, y_m=0.0)
     assert watcher.wait_for("refused")["do"] == "obstacle"
     assert rig.session.log == []
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "de-DE", "zh-CN"])
+def test_no_button_of_the_dock_lies_over_another_or_is_too_thin_for_a_finger(
+    browser: Browser, rig: WebRig, locale: str
+) -> None:
+    page = open_page(browser, rig.origin, PHONE, locale=locale)
+    boxes = [page.locator(button).bounding_box() for button in ("#stop", "#pause", "#emergency")]
+    edges = [(box["x"], box["x"] + box["width"]) for box in boxes if box is not None]
+    assert [at for pair in edges for at in pair] == sorted(at for pair in edges for at in pair)
+    assert all(end - begin >= 40 for begin, end in edges)
+    page.context.close()

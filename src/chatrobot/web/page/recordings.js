@@ -97,6 +97,7 @@ function rowOf(file) {
 function drawList(files) {
   for (const [name, row] of rows) {
     if (files.some((file) => file.name === name)) continue;
+    if (row.item.contains(document.activeElement)) byId("recordings-head").focus(); // keys go on from there
     row.item.remove();
     rows.delete(name);
   }
