@@ -31,7 +31,7 @@ def read_naming(plain: str, language: LanguageCode, context: Context) -> Interpr
         found = pattern.fullmatch(said)
         name = _known(found["name"], context) if found else ""
         if found and name and _is_own(name, context):
-            reply = say(language, "step_remember", place=name)
+            reply = say(language, "place_remembered", place=name)
             return Interpretation("answered", reply, language, remember_place=name)
     return None
 

@@ -25,6 +25,8 @@ _QUOTING = frozenset(
 """Codes whose replies quote what was not understood."""
 _OPENING, _CLOSING = '“„"', '”“"'
 _MARKS = " ,.;:!?，。；：！？…\n"
+_BREAK = re.compile(r"[;!?，。；：！？…\n]|(?<!\d)[,.:]|[,.:](?!\d)")
+"""A mark between parts of a text, and none in a number: 0,25 m/s."""
 _BLANK = r"(?<=[\u2e80-\uffef]) (?=[\u2e80-\uffef])"
 """A blank between two Chinese characters."""
 _SHOWN = 60
@@ -67,9 +69,9 @@ def _part_of(text: str, part: str, *, is_reordered: bool) -> str:
         return _beginning(text)
     start, stop = units[window[0]].start(), units[window[-1]].end()
     if held != wanted:  # up to the marks on either side
-        start = max((text.rfind(mark, 0, start) + 1 for mark in _MARKS.strip()), default=0)
-        after = (at for mark in _MARKS.strip() if (at := text.find(mark, stop)) >= 0)
-        stop = min(after, default=len(text))
+        start = max((mark.end() for mark in _BREAK.finditer(text, 0, start)), default=0)
+        after = _BREAK.search(text, stop)
+        stop = after.start() if after else len(text)
     return text[start:stop].strip(_MARKS)
 
 

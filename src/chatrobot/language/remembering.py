@@ -85,7 +85,7 @@ def _moving_steps(part: str, read: Callable[[str], list[Step]]) -> list[Step]:
 
 def _placed(steps: list[Step], reading: Reading) -> Interpretation:
     if len(steps) == 1 and isinstance(steps[0], Remember):
-        reply = say(reading.language, "step_remember", place=steps[0].place)
+        reply = say(reading.language, "place_remembered", place=steps[0].place)
         return Interpretation("answered", reply, reading.language, remember_place=steps[0].place)
     return planned(steps, reading.language)
 
