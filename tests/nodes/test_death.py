@@ -7,6 +7,7 @@ beside busy processes in test_busy_machine.py; `make faults` strikes twenty time
 from __future__ import annotations
 
 import itertools
+import math
 import time
 from collections.abc import Iterator
 
@@ -73,11 +74,17 @@ def test_a_base_that_thaws_drives_again_when_told_and_not_before(rig: NodeRig) -
 
 @pytest.mark.parametrize("whom", NODES)
 def test_when_one_is_killed_the_robot_stands_within_250_ms(rig: NodeRig, whom: str) -> None:
+    rig.rest()
+    before = rig.truth.all[-1][1]
     rig.drive()
+    time.sleep(1.0)
     struck_s = rig.nodes[whom].strike("SIGKILL")
     took_s = rig.velocities.seconds_to_zero(struck_s)
     if whom == "control":
-        assert rig.result(struck_s)["reason"]["code"] == "control_silent"
+        result, after = rig.result(struck_s), rig.truth.all[-1][1]
+        assert result["reason"]["code"] == "control_silent"
+        driven_m = math.hypot(after.x_m - before.x_m, after.y_m - before.y_m)
+        assert result["path_m"] == pytest.approx(driven_m, abs=0.1), "as told last"
     rig.replace(whom, *REPLACEMENT.get(whom, ()))
     rig.drive()  # who took its place does its work
     rig.rest()

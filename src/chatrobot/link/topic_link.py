@@ -11,21 +11,24 @@ import json
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from chatrobot.core.clock import BEAT_HZ, LOCAL_BEAT_HZ, LOCAL_TERM_S, TERM_S
 from chatrobot.core.errors import LinkError, WireError
 from chatrobot.core.events import (
+    Event,
     Finished,
     Interpreted,
     Notice,
-    Outcome,
     ProgramWritten,
+    Rehearsed,
     Result,
+    Started,
     Telemetry,
     event_from_json,
 )
-from chatrobot.core.geometry import ORIGIN, Pose
+from chatrobot.core.geometry import ORIGIN, ZERO_TWIST
 from chatrobot.core.process import own_identity, wake_promptly
 from chatrobot.core.reason import Reason
 from chatrobot.link.envelope import PROTOCOL, STOP_TOPIC, Envelope, Word, other_protocol, protocol_of
@@ -103,6 +106,38 @@ FROZEN_S = 0.5
 """After a gap this long in our own beats it is we who were silent, and what control said is still to be read."""
 
 
+@dataclass
+class _InFlight:
+    """A turn that a control node has, and what it has told of it: should it fall silent, its end is told from that."""
+
+    control: str
+    planned: Rehearsed | None = None
+    began: tuple[float, Telemetry] | None = None
+    """When it began to move the robot, and where."""
+    measured: bool = True
+
+    def end(self, last: Telemetry, heard_s: float) -> dict[str, Any]:
+        """Return what it came to: fields of `Finished`. Where nothing is measured, that is what was sent at most."""
+        if self.began is None:
+            stood = {"turned_rad": 0.0, "path_m": 0.0, "duration_s": 0.0}
+            return {"start": last.pose, "pose": last.pose, **stood}
+        began_s, first = self.began
+        duration_s = max(0.0, heard_s - began_s)
+        planned_m = self.planned.length_m if self.planned is not None else 0.0
+        if not self.measured and self.planned is not None and self.planned.duration_s:
+            planned_m *= min(1.0, duration_s / self.planned.duration_s)
+        return {
+            "start": first.pose,
+            "pose": last.pose,
+            "turned_rad": last.pose.yaw_rad - first.pose.yaw_rad,
+            "path_m": last.path_m - first.path_m,
+            "duration_s": duration_s,
+            "planned_m": planned_m,
+            "open_ended": self.planned is not None and self.planned.open_ended,
+            "measured": self.measured,
+        }
+
+
 class TopicLink(EventQueue, MotionLink):
     """Talks to whichever control node is there; it may come, go and come again.
 
@@ -135,8 +170,8 @@ class TopicLink(EventQueue, MotionLink):
         self._strangers: dict[int, float] = {}
         """When a control node of another protocol was last heard, by that."""
         self._control_came = threading.Condition()
-        self._in_flight: dict[int, str] = {}
-        self._pose: Pose = ORIGIN
+        self._in_flight: dict[int, _InFlight] = {}
+        self._telemetry = Telemetry(0, ORIGIN, ZERO_TWIST, 0.0)
 
     def open(self) -> None:
         """Listen, and begin to beat."""
@@ -156,9 +191,9 @@ class TopicLink(EventQueue, MotionLink):
         if word == "program" or (word == "plan" and payload.get("mode") != "extend"):
             control = self._find_control()
             if control is None:
-                self._conclude(turn, "failed", self._why_none())
+                self._conclude(turn, self._why_none(), _InFlight(""))
                 return
-            self._in_flight[turn] = control
+            self._in_flight[turn] = _InFlight(control)
         self._publish(self._sender.envelope(word, turn, **payload))
 
     def close(self) -> None:
@@ -216,11 +251,22 @@ class TopicLink(EventQueue, MotionLink):
             return  # a base's own, ours among them
         if isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
             return  # its beats tell, also whoever comes later
+        self._note(event)
+        self._events.put(event)
+
+    def _note(self, event: Event) -> None:
+        """Note what the end of a turn would be told from."""
+        known = self._in_flight.get(event.turn)
         if isinstance(event, Telemetry):
-            self._pose = event.pose
+            self._telemetry = event
         elif isinstance(event, Finished):
             self._in_flight.pop(event.turn, None)
-        self._events.put(event)
+        elif known is None:
+            return
+        elif isinstance(event, Rehearsed) and known.began is None:  # not what is left after a pause
+            known.planned = event
+        elif isinstance(event, Started):
+            known.began, known.measured = known.began or (time.monotonic(), self._telemetry), event.measured
 
     # --- our own beats ---
 
@@ -240,15 +286,17 @@ class TopicLink(EventQueue, MotionLink):
 
     def _notice_silence(self, now_s: float) -> None:
         """End the turns of a control node that is gone; and should it come again, they must not run."""
-        for turn, control in tuple(self._in_flight.items()):
-            if now_s - self._controls.get(control, 0.0) > SILENT_S and self._in_flight.pop(turn, ""):
+        for turn, known in tuple(self._in_flight.items()):
+            heard_s = self._controls.get(known.control, 0.0)
+            if now_s - heard_s > SILENT_S and self._in_flight.pop(turn, None) is not None:
                 with contextlib.suppress(LinkError):
                     self.send("stop", turn, why="control was silent")
-                self._conclude(turn, "failed", Reason("control_silent"))
+                self._conclude(turn, Reason("control_silent"), known, heard_s)
 
-    def _conclude(self, turn: int, outcome: Outcome, reason: Reason) -> None:
-        pose = self._pose
-        self._events.put(Finished(turn, outcome, reason, pose, pose, 0.0, 0.0, 0.0, 0.0))
+    def _conclude(self, turn: int, reason: Reason, known: _InFlight, heard_s: float = 0.0) -> None:
+        """End a turn whose end no control node tells."""
+        end = known.end(self._telemetry, heard_s)
+        self._events.put(Finished(turn, "failed", reason, paused_s=0.0, **end))
 
     def _publish(self, envelope: Envelope) -> None:
         try:
