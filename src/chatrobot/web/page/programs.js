@@ -2,6 +2,7 @@
 
 import { on, send, state, tell } from "./connection.js";
 import { byId, make, makeButton, setText } from "./dom.js";
+import { notice } from "./steering.js";
 import { onLanguage, t } from "./words.js";
 
 const MOST_LOG_LINES = 200;
@@ -67,8 +68,13 @@ export function editProgram(turn = runningTurn) {
 }
 
 function save() {
+  if (!text.value.trim()) {
+    notice(t("program_empty")); // nothing is rehearsed in its place
+    return;
+  }
   drafts.set(shown.name, text.value);
   if (!send({ do: "edit_program", name: shown.name, source: text.value })) return;
+  notice("");
   edit(false);
   tell({ is: "asking" });
 }
