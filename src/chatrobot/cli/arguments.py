@@ -236,7 +236,7 @@ def _sim(parser: argparse.ArgumentParser) -> None:
 
 def _node(parser: argparse.ArgumentParser) -> None:
     nodes = "input: typed → user_input; base: user_input → chatgpt_node; control: chatgpt_node → cmd_vel"
-    _add(parser, "which", choices=("input", "base", "control"), help=nodes)
+    _add(parser, "which", choices=("input", "base", "control"), metavar="input|base|control", help=nodes)
     _ros_args(parser)
 
 
@@ -244,7 +244,7 @@ def _model(parser: argparse.ArgumentParser) -> None:
     actions = "setup: with questions (the default); list: what there is; test: try one sentence; use: keep a choice;"
     choices = ("setup", "list", "test", "use", "key")
     key = f"{actions} key: put a provider's key into the keyring"
-    _add(parser, "action", nargs="?", default="setup", choices=choices, help=key)
+    _add(parser, "action", nargs="?", default="setup", choices=choices, metavar="|".join(choices), help=key)
     none = "use none: keep that no model is used"
     _add(parser, "name", "models", nargs="?", default="", metavar="PROVIDER[:NAME]", help=none)
     _add(parser, "--delete", action="store_true", help="key: take it out of the keyring")

@@ -212,8 +212,13 @@ def _calibrate(dialogue: Dialogue, profile: RobotProfile, robot: str, folder: Pa
     )
     source = f"chatrobot calibrate, {datetime.date.today().isoformat()}: {source}"
     calibration = corrected(profile.calibration, metre, turn, source)
-    file = save_calibration(robot, calibration, folder)
-    dialogue.say("saved", file=file, distance=calibration.distance_scale, turn=calibration.turn_scale)
+    numbers = {"distance": calibration.distance_scale, "turn": calibration.turn_scale}
+    try:
+        file = save_calibration(robot, calibration, folder)
+    except OSError as error:  # what a person has measured with a tape is not to be lost
+        dialogue.say("not_saved", problem=f"{error.filename}: {error.strerror}", **numbers)
+        return FAILED
+    dialogue.say("saved", file=file, **numbers)
     return 0
 
 

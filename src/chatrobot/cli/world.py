@@ -11,6 +11,7 @@ from typing import Any
 from chatrobot.cli.folders import profile_folders
 from chatrobot.cli.json_lines import json_line
 from chatrobot.core.errors import InputError, UsageError, WorldError
+from chatrobot.core.files import write_new
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.robots.load import load_profile
 from chatrobot.robots.profile import RobotProfile
@@ -161,8 +162,7 @@ def _new(args: argparse.Namespace) -> int:
         name = json.dumps(name, ensure_ascii=False)
     text = NEW_WORLD.read_text(encoding="utf-8").replace("{file}", named).replace("{name}", name)
     try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(text)
+        write_new(path, text)
     except FileExistsError:
         raise UsageError("is there already", where=str(path), allowed="the name of a new file") from None
     except OSError as error:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import itertools
 import json
 import math
-import os
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished, Telemetry
+from chatrobot.core.files import write_whole
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.core.sensed_events import ObstacleChanged
@@ -109,15 +109,12 @@ class Places:
         return robots, {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
 
     def _save(self) -> None:
-        """Write beside and rename: a full disk or a kill leaves the old file whole, as does one that may be mended."""
+        """A file that may be mended stays as it is, too."""
         if self._path is None:
             return
-        self._path.parent.mkdir(parents=True, exist_ok=True)
         robots, _ = self._read()
         robots[self._robot] = self._kept
-        beside = self._path.with_suffix(".new")
-        beside.write_text(json.dumps(robots, ensure_ascii=False, indent=1), encoding="utf-8")
-        os.replace(beside, self._path)
+        write_whole(self._path, json.dumps(robots, ensure_ascii=False, indent=1))
 
 
 class RestWatch:

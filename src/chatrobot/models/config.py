@@ -15,6 +15,7 @@ else:
     import tomli as tomllib
 
 from chatrobot.core.errors import InputError
+from chatrobot.core.files import write_whole
 
 FILE = "model.toml"
 VARIABLE = "CHATROBOT_MODEL"
@@ -70,7 +71,8 @@ def _stored(config: ModelConfig) -> str:
     except FileNotFoundError:
         return ""
     except (OSError, ValueError) as error:
-        raise InputError(str(error), where=str(path), allowed='model = "PROVIDER:NAME"') from None
+        problem = getattr(error, "strerror", None) or str(error)
+        raise InputError(problem, where=str(path), allowed='model = "PROVIDER:NAME"') from None
 
 
 def store_choice(name: str, folder: Path) -> Path:
@@ -79,9 +81,8 @@ def store_choice(name: str, folder: Path) -> Path:
     Raises:
         OSError: the folder cannot be written.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     path = folder / FILE
     quoted = name.replace("\\", "\\\\").replace('"', '\\"')
     text = f'# The language model of new sessions. Keys are never kept here.\nmodel = "{quoted}"\n'
-    path.write_text(text, encoding="utf-8")
+    write_whole(path, text)
     return path

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
 from collections.abc import Iterator, Mapping
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from chatrobot.core.errors import InputError
+from chatrobot.core.files import write_whole
 
 MAX_NAME_CHARS = 60
 KEPT_RUNS = 20
@@ -133,8 +133,9 @@ class Library:
         if not new or (taken is not None and taken.name != program.name):
             problem = f"there is a program {new!r} already" if new else "the new name is empty"
             raise InputError(problem, where="rename", allowed="another name")
-        self.remove(program.name)
         self.keep(replace(program, name=new))
+        if folder_name(new) != folder_name(program.name):
+            self.remove(program.name)  # last: where the new one cannot be kept the old one stays
 
     def remove(self, name: str) -> None:
         """Remove a program. Raises InputError where there is none."""
@@ -183,16 +184,9 @@ class Library:
             ) from error
 
     def _write(self, folder: Path, program: KeptProgram) -> None:
-        """Each file is written beside and renamed: a full disk or a kill leaves the old one whole."""
-        folder.mkdir(parents=True, exist_ok=True)
         about = {key: value for key, value in asdict(program).items() if key != "source"}
-        for name, text in (
-            (_SOURCE, program.source),
-            (_ABOUT, json.dumps(about, ensure_ascii=False, indent=1)),
-        ):
-            beside = folder / f"{name}.new"
-            beside.write_text(text, encoding="utf-8")
-            os.replace(beside, folder / name)
+        write_whole(folder / _SOURCE, program.source)
+        write_whole(folder / _ABOUT, json.dumps(about, ensure_ascii=False, indent=1))
 
 
 def clean_name(name: str) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from chatrobot.core.errors import ProfileError
+from chatrobot.core.files import write_whole
 from chatrobot.robots.load import list_profiles
 from chatrobot.robots.parse import parse_profile
 from chatrobot.robots.profile import Calibration
@@ -84,7 +84,7 @@ def save_calibration(profile: str, calibration: Calibration, folder: Path) -> Pa
     )
     target = file if file == Path(profile) else folder / f"{profile}.toml"
     parse_profile(text, target.stem, str(target))
-    _write(target, text)
+    write_whole(target, text)
     return target
 
 
@@ -108,7 +108,7 @@ def reset_calibration(profile: str, folder: Path) -> Path | None:
     if original is not None and text == _without_table(original):
         file.unlink()
     else:
-        _write(file, text)
+        write_whole(file, text)
     return file
 
 
@@ -122,11 +122,3 @@ def _file_of(name: str, folders: tuple[Path, ...] = ()) -> Path | None:
 
 def _without_table(file: Path) -> str:
     return _TABLE.sub("", file.read_text(encoding="utf-8-sig")).rstrip("\n") + "\n"
-
-
-def _write(file: Path, text: str) -> None:
-    """The whole of it or nothing."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    draft = file.with_suffix(".new")
-    draft.write_text(text, encoding="utf-8")
-    os.replace(draft, file)

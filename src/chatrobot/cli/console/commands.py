@@ -16,6 +16,7 @@ from chatrobot.cli.console.controller import ChatController
 from chatrobot.cli.console.lines import shown
 from chatrobot.cli.plan import read_plan_file
 from chatrobot.core.errors import UsageError
+from chatrobot.core.files import write_new
 from chatrobot.link.envelope import OBSTACLE_RADIUS_M
 from chatrobot.link.processes import SIMULATED
 from chatrobot.robots.profile import NONE
@@ -125,8 +126,7 @@ def _save_plan(controller: ChatController, argument: str) -> None:
         return
     path = Path(argument).expanduser()
     try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(f"{controller.motion_view.plan_text}\n")
+        write_new(path, f"{controller.motion_view.plan_text}\n")
         controller.tell("saved", file=path)
     except OSError as error:
         controller.tell("save_failed", problem=f"{path}: {error.strerror}")
