@@ -33,6 +33,8 @@ from chatrobot.core.errors import UsageError
         (["do", "hi", "--record", "hi.txt"], "hi.txt: a recording's name ends in .mcap"),
         (["--web", "--class", "3"], "does not take --class 3 (an option of a command stands behind it"),
         (["program", "run", "no-such.py"], "no-such.py: cannot be read"),
+        (["model", "list", "--json"], "model list prints no JSON"),
+        (["replay", "/dev/null"], "/dev/null: this is not a file"),
     ],
 )
 def test_wrong_usage_is_told(

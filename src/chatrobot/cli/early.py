@@ -63,7 +63,9 @@ class Early:
     def _show(self, title: str) -> None:
         from chatrobot.cli.console.words import Words, language_of_environment
 
-        self._write(Words(language_of_environment()).say("starting", title=title))
+        columns = os.get_terminal_size(STDOUT).columns or 80
+        line = Words(language_of_environment()).say("starting", title=title)
+        self._write(line[: columns - 1])  # a longer one could not be cleared
         self._is_shown = True
 
     def ready(self) -> None:

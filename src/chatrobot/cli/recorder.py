@@ -73,6 +73,8 @@ def read_recording(name: str) -> tuple[Recording, str]:
     try:
         if path.is_dir():
             path = _only_file(path)
+        elif path.exists() and not path.is_file():  # a pipe cannot be read twice, and may wait for ever
+            raise UsageError("this is not a file", where=str(path), allowed="an .mcap file")
         with _progress(path.name) as tell:
             was_mended = repair(path, tell) is not None
             if is_whole(path):

@@ -24,6 +24,10 @@ _FLAWS = {"not_ascii": "a character that no key has", "space": "a space or a lin
 
 def run(args: argparse.Namespace) -> int:
     """Do the action; 0 where it worked, 1 where the model did not answer."""
+    if args.json and args.action != "test":
+        raise UsageError(
+            f"model {args.action} prints no JSON", where="--json", allowed="chatrobot model test --json"
+        )
     config = ModelConfig(folder=config_folder(args), session="model test")
     try:
         return _ACTIONS[args.action](args, config)
