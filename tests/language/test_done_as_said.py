@@ -258,6 +258,7 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         ),
         (("Right, that's done. go back 1 m",), "drive 1 m back"),
         (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
+        (("square 1 m", "only the first two sides again"), "drive 1 m; turn left 90 deg; drive 1 m"),
         (("turn yourself around so you're facing us, would you?",), "turn left 180 deg"),
         (("spin around so you're facing the other way",), "turn left 180 deg"),
         (("turn left 30. sorry, my left, so your right",), "turn right 30 deg"),

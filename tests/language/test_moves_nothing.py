@@ -200,6 +200,8 @@ ALONE = [
     ("go forward twice 40 cm plus 15 cm",),
 ]
 AFTER_OTHERS = [
+    ("go 1 m", "turn right", "do both again but turn left"),
+    ("go forward 2 m", "go forward 1 m", "back up the total of those two"),
     ("forward 2 m then left 1 m sideways", "undo only the sideways bit"),
     ("forward 2 m, left 90, forward 1 m", "go half the way back to the start"),
     ("turn left 90", "face thirty degrees left of the direction you started in"),

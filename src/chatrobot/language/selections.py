@@ -67,8 +67,8 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
     """
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = kind_named(said.get("kind", ""), language)
-    units = _units(dialogue, kind, language)
     at, count = _number(said, "nth", table), _number(said, "count", table) or 1
+    units = _units(dialogue, kind, language, with_corners=kind == "leg" and count > 1)
     last = dialogue.last_motion
     if kind in ("step", "move") and last is not None and len(shapes_said(last.text)) > 1:
         raise Unclear("nothing_before", plain)  # `the second one`, of a square and a circle
@@ -84,7 +84,10 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
         parts = units if every or len(units) == count else []
     if not parts:
         raise Unclear("nothing_before", plain)
-    return [step for unit in parts for step in unit]
+    steps = [step for unit in parts for step in unit]
+    while kind == "leg" and not is_of_kind(steps[-1], kind):
+        steps.pop()
+    return steps
 
 
 def part_of_before(
@@ -251,8 +254,10 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     return steps[:once] * count if once < len(steps) else None
 
 
-def _units(dialogue: Dialogue, kind: str, language: str) -> list[list[Step]]:
+def _units(dialogue: Dialogue, kind: str, language: str, *, with_corners: bool = False) -> list[list[Step]]:
     """What is counted: the steps of that kind of the last motion, or the turns that moved.
+
+    `with_corners`: each with what comes behind it up to the next: between two sides the robot turns.
 
     Parts of a motion that were done once more since are not counted: `the second step again`, `now the first one`.
     """
@@ -266,7 +271,8 @@ def _units(dialogue: Dialogue, kind: str, language: str) -> list[list[Step]]:
     turns = [list(turn.plan.steps) for turn in told if turn.plan is not None] or [[]]
     if kind == "said" or len(turns[-1]) == 1:
         return [turn for turn in turns if kind == "said" or is_of_kind(turn[0], kind)]
-    return [[step] for step in turns[-1] if is_of_kind(step, kind)]
+    at = [i for i, step in enumerate(turns[-1]) if is_of_kind(step, kind)]
+    return [turns[-1][i : j if with_corners else i + 1] for i, j in zip(at, [*at[1:], len(turns[-1])])]
 
 
 def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
