@@ -6,6 +6,7 @@ import pytest
 
 from tests.language.test_usual import done
 
+_SQUARE = "; ".join(["drive 0.5 m; turn left 90 deg"] * 4)
 _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
 
 
@@ -258,6 +259,24 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         ),
         (("Right, that's done. go back 1 m",), "drive 1 m back"),
         (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
+        (("draw a square and drive 1 m",), f"{_SQUARE}; drive 1 m"),
+        (("drive 1 m, draw a square",), f"drive 1 m; {_SQUARE}"),
+        (("draw a square and slide left 1 m",), f"{_SQUARE}; drive 1 m left"),
+        (("draw a circle and drive forward",), "arc left 360 deg radius 0.5 m; drive 0.5 m"),
+        (("forward, circle, forward",), "drive 0.5 m; arc left 360 deg radius 0.5 m; drive 0.5 m"),
+        (("drive 1 m and draw a circle",), "drive 1 m; arc left 360 deg radius 0.5 m"),
+        (("back up and draw a circle",), "drive 0.5 m back; arc left 360 deg radius 0.5 m"),
+        (("go home and draw a square",), f"go to 0 0 from start; {_SQUARE}"),
+        (("draw two circles and go home",), "arc left 720 deg radius 0.5 m; go to 0 0 from start"),
+        (("spin around, go home",), "turn left 360 deg; go to 0 0 from start"),
+        (("turn around and go home",), "turn left 180 deg; go to 0 0 from start"),
+        (("turn left and turn left",), "turn left 90 deg; turn left 90 deg"),
+        (("turn left and back up",), "turn left 90 deg; drive 0.5 m back"),
+        (("go right back",), "drive 0.5 m back"),
+        (("drive 1 m back", "keep going"), "drive 0.5 m back"),
+        (("drive 2 m", "again, but only half"), "drive 1 m"),
+        (("turn left by a couple of degrees",), "turn left 2 deg"),
+        (("drive 1 m, before that turn left",), "turn left 90 deg; drive 1 m"),
         (("square 1 m", "only the first two sides again"), "drive 1 m; turn left 90 deg; drive 1 m"),
         (("turn yourself around so you're facing us, would you?",), "turn left 180 deg"),
         (("spin around so you're facing the other way",), "turn left 180 deg"),

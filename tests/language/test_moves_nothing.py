@@ -7,6 +7,17 @@ import pytest
 from tests.language.dialogue_runner import conversation
 
 ALONE = [
+    ("move 2 squares forward",),
+    ("box ahead",),
+    ("big box on the right",),
+    ("move the box 1 m forward",),
+    ("draw a square at the desk",),
+    ("draw a circle over there",),
+    ("turn left a few degrees",),
+    ("turn left 25%",),
+    ("drive 1 m, turn left, drive 2 m, then reverse it all",),
+    ("turn left last, first drive 1 m",),
+    ("drive 1 m, left, 1 m, left",),
     ("Marge, come sit over here, honey, two feet to the left, you're blocking the TV",),
     ("go to the red cross",),
     ("go to the box",),
@@ -200,6 +211,10 @@ ALONE = [
     ("go forward twice 40 cm plus 15 cm",),
 ]
 AFTER_OTHERS = [
+    ("remember this place as base", "drive 2 m", "drive away from base"),
+    ("remember this place as base", "drive 2 m", "go anywhere but base"),
+    ("drive 2 m", "10% more"),
+    ("drive 2 m", "to 5 m"),
     ("go 1 m", "turn right", "do both again but turn left"),
     ("go forward 2 m", "go forward 1 m", "back up the total of those two"),
     ("forward 2 m then left 1 m sideways", "undo only the sideways bit"),

@@ -189,7 +189,9 @@ def _shape_first(frames: list[Frame]) -> list[Frame]:
     out: list[Frame] = []
     for frame in frames:
         at = len(out)
-        while frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1]):
+        while (
+            frame.shape and frame.joined in ("none", "weak", "and") and at and _is_measure(out[at - 1], frame)
+        ):
             if out[at - 1].verb == "go" and "length" in frame.q and frame.shape != "rectangle":
                 break  # `go 1 m, drive a half circle with a radius of 50 cm`: it has its own measure
             at -= 1
@@ -209,9 +211,11 @@ def _in_said_order(shape: Frame, before: list[Frame]) -> list[Frame]:
     return frames
 
 
-def _is_measure(frame: Frame) -> bool:
+def _is_measure(frame: Frame, shape: Frame) -> bool:
+    """`Drive 2 m by 1 m rectangle`; where both have a verb, `drive 1 m and draw a circle`, it is its own motion."""
     bare = not frame.moves or (
-        frame.verb in ("go", "") and not (frame.direction or frame.shape or frame.place)
+        frame.verb in (("",) if shape.verb else ("go", ""))
+        and not (frame.direction or frame.shape or frame.place)
     )
     lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)
     return (bare and "length" in frame.q and "time" not in frame.q) or lone_rotation

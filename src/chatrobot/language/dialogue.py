@@ -324,6 +324,12 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             return None
         if any(name in whole.q for name in frame.q):
             return None
+        if (
+            "to_start" in frame.flags
+            and frame.verb == "go"
+            and (whole.shape or whole.verb in ("spin", "uturn"))
+        ):
+            return None  # `draw a triangle and go home`, `turn around and go home`
         if "to_start" in whole.flags and frame.verb == "turn" and not (frame.direction or frame.q):
             raise Unclear("unclear_motion", whole.text)  # `back to where you were before the turn`
         if "again" in frame.flags and whole.has_extent and whole.moves:

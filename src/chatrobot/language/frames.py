@@ -111,6 +111,12 @@ class Frame:
         """Whether it says left or right, or round which way."""
         return bool(self.rot) or self.direction in SIDES
 
+    @property
+    def is_bare_ahead(self) -> bool:
+        """Whether it says `forward`, and nothing else."""
+        said = self.verb or self.q or self.flags or self.roles or self.rot or self.pace or self.shape
+        return self.direction == "forward" and not said
+
     def copy(self) -> Frame:
         """One that may be changed by itself; the atoms are shared, for nobody changes those."""
         return replace(

@@ -44,8 +44,12 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
         return True
     if last.verb == first.verb == "defined":
         return True  # `hop, hop`
-    if last.place and (first.direction or first.place or first.verb == "return"):
+    if last.place and (first.direction or first.place or first.verb == "return" or "to_start" in first.flags):
         return True  # `go to the kitchen and back`: to a place, then another way
+    if _goes_and_turns(last, first) or _goes_and_turns(first, last):
+        return True
+    if joined == "and" and last.verb and last.verb == first.verb and last.sided and not last.has_extent:
+        return not first.q and (last.direction, last.rot) == (first.direction, first.rot)
     sized = first.direction or first.rot or {"length", "time"} & set(first.q)
     aside = first.verb in ("shift", "slide") and not sized
     if aside and joined == "and" and last.moves and last.direction not in SIDES and first.verb != last.verb:
@@ -63,6 +67,11 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
         return True
     again = "again" in last.flags and not last.has_extent and (first.moves or first.flags != {"same_amount"})
     return bool("all" in last.flags or again)
+
+
+def _goes_and_turns(way: Frame, turn: Frame) -> bool:
+    """`Go home and spin around`."""
+    return "to_start" in way.flags and bool(way.verb) and way.verb not in TURN and turn.verb in TURN
 
 
 def _tells_pace(frame: Frame) -> bool:
@@ -142,9 +151,13 @@ def _is_by_the_way(turn: Frame) -> bool:
     return turn.text.split()[0].endswith("ing")
 
 
-def _is_beside_shape(frame: Frame) -> bool:
+def _is_beside_shape(frame: Frame, shape: Frame) -> bool:
     """`… and turn around`, `… and wait`, `… and go 1 m`: a motion of its own, not how a shape is drawn."""
     told = frame.has_extent or (frame.sided and frame.joined == "and" and not _is_by_the_way(frame))
+    ways = frame.direction in ("forward", "back") or "to_start" in frame.flags or bool(frame.place)
+    told = told or bool(shape.verb and ways and not _is_by_the_way(frame))  # `go home and draw a square`
+    if frame.is_bare_ahead and frame.joined in ("start", "weak"):
+        return not shape.has_extent  # `forward, circle, forward`
     own = frame.verb in ("uturn", "return") or (frame.verb in (*GO, *TURN, *STILL) and told)
     return own and not frame.shape
 
@@ -158,7 +171,7 @@ def _belongs(last: Frame, first: Frame) -> bool:
     if first.shape and first.verb and last.verb == "turn" and last.sided and not _is_by_the_way(last):
         return False  # `turn left and draw a triangle`
     if last.shape or first.shape:
-        return not (_is_beside_shape(last) or _is_beside_shape(first))
+        return not (_is_beside_shape(last, first) or _is_beside_shape(first, last))
     if first.joined == "and" and last.verb in STILL and first.moves:
         return False
     if last.verb in STILL and last.has_extent and not (set(first.q) <= MANNER and not first.moves):

@@ -17,6 +17,7 @@ from chatrobot.plan.steps import Step
 _TITLES = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "zigzag", "square", "rectangle"})
 """Shapes whose moves may be spelt out after their name."""
 
+_EACH = frozenset({"all", "each"})
 _STRAIGHT = (
     "square",
     "triangle",
@@ -90,6 +91,10 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         "remember",
     ):
         return False
+    ahead = frame.direction in ("forward", "back") and frame.verb in GO and not frame.has_extent
+    by_the_way = frame.text.split()[0].endswith("ing")
+    if frame.is_bare_ahead or (ahead and head.verb and not by_the_way):
+        return False  # `draw a circle and drive forward`
     goes_on = frame.direction in ("forward", "back") and set(frame.q) == {"length"} and not frame.roles
     if goes_on and head.shape in ("quarter_circle", "half_circle", "circle"):
         return False  # `a quarter circle of 1 m radius, 50 cm straight`
@@ -98,6 +103,13 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     is_straight = head.shape.startswith(_STRAIGHT)
     if frame.shape and (is_straight or frame.shape not in ("half_circle", "quarter_circle", "circle")):
         return False
+    beside = frame.joined in ("and", "then", "strong") and frame.verb in GO and head.verb
+    if (
+        beside
+        and head.shape in ("square", "rectangle", "zigzag")
+        and not (_EACH & frame.flags or frame.roles)
+    ):
+        return False  # `draw a square and drive 1 m`
     if head.shape in _TITLES and frame.has_extent and (frame.direction or frame.verb in GO):
         return True
     lone_side = frame.direction in SIDES and not frame.q and frame.verb in ("", "curve", "turn")
