@@ -118,8 +118,8 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     if frame.joined == "then":
         return False
     if frame.verb in TURN:
-        by_the_way = frame.text.split()[0].endswith("ing") or {"all", "each"} & frame.flags or frame.roles
-        return bool((lone_side or frame.rot) and not frame.has_extent and by_the_way)
+        told_beside = by_the_way or _EACH & frame.flags or frame.roles
+        return bool((lone_side or frame.rot) and not frame.has_extent and told_beside)
     return not (
         frame.verb in GO
         and frame.has_extent
