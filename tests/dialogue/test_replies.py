@@ -10,11 +10,13 @@ from chatrobot.core.events import Finished, Outcome
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_end
+from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import Context, RobotState
 from chatrobot.language.data_files import load_table
 from chatrobot.language.phrases import say
 from chatrobot.language.questions import answer
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
+from chatrobot.sim.load import load_world
 
 BLOCKED = Reason("does_not_move", {"asked_m": "0.50", "asked_deg": "0", "seen_m": "0.00", "seen_deg": "0"})
 
@@ -97,3 +99,18 @@ def test_no_sentence_has_float_noise_in_it(language: str, value: float) -> None:
             names = re.findall(r"\{(\w+)", template)
             sentence = say(language, code, **dict.fromkeys(names, value))
             assert not re.search(r"\d\.\d{4,}|\de-\d", sentence), f"{code}: {sentence}"
+
+
+@pytest.mark.parametrize(
+    ("language", "doubt"),
+    [("en", "may still be moving"), ("de", "fährt vielleicht noch"), ("zh", "可能还在动")],
+)
+def test_a_stop_that_cannot_reach_the_robot_is_not_told_as_one(language: str, doubt: str) -> None:
+    """A base that holds its last command drives on while the connection is gone."""
+    understanding = Understanding(load_profile(DEFAULT_PROFILE), load_world("empty"), None)
+    understanding.note_notice("wire_gone")
+    for code in ("stopped_now", "emergency_stopped"):
+        assert doubt in say(language, understanding.stop_code(code))
+    assert doubt in describe_end(ended("failed", Reason("wire_gone")), language)
+    understanding.note_notice("wire_back")
+    assert understanding.stop_code() == "stopped_now"

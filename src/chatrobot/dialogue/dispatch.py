@@ -82,8 +82,7 @@ class Dispatch:
             self._begin_program(utterance)
         else:
             code = "stopped_now" if utterance.kind != "emergency_stop" else "emergency_stopped"
-            code = code if self._understanding.is_measured else f"{code}_unmeasured"
-            reply = self._understanding.say(code, utterance.text)
+            reply = self._understanding.say(self._understanding.stop_code(code), utterance.text)
             if utterance.kind == "pause":
                 reply = self._told("paused_now", self._resuming.paused)
             else:

@@ -42,6 +42,8 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         has_moved = moved and finished.path_m
         return say(language, "model_so_far", reason=refused, moved=moved) if has_moved else refused
     code = "stopped_after" if finished.outcome == "stopped" else "failed_after"
+    if finished.outcome == "failed" and finished.reason is not None and finished.reason.code == "wire_gone":
+        code = "failed_unreached"  # it was told to stop, and cannot have heard that
     return _ended_once(say(language, code, moved=moved or say(language, "nothing_moved"), reason=reason))
 
 

@@ -140,6 +140,5 @@ class Resuming:
         """Return what is left of a paused plan, in the phrase of that code; that it stands, where nothing is paused."""
         language = self._understanding.language
         if paused is None:
-            is_measured = self._understanding.is_measured
-            return say(language, "stopped_now" if is_measured else "stopped_now_unmeasured")
+            return say(language, self._understanding.stop_code())
         return say(language, code, plan=describe_left(paused, language))

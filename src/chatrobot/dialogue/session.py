@@ -34,7 +34,6 @@ from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utt
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
-from chatrobot.robots.profile import OPEN_LOOP
 
 STEERED_S = 1.0
 """So long after a stick was held a text need only begin with a stop word to be one."""
@@ -317,8 +316,8 @@ class Session:
             self.understanding.ways.note_obstacle(event)
         elif isinstance(event, Paused) and self._requests.has(event.turn):
             event = replace(event, waiting=self._dispatch.texts_behind(event.turn))
-        elif isinstance(event, Notice) and event.reason.code == OPEN_LOOP:
-            self.understanding.note_open_loop()
+        elif isinstance(event, Notice):
+            self.understanding.note_notice(event.reason.code)
         self._emit(event)
         if self._requests.has(event.turn) or self._llm.has(event.turn):
             was_paused = self.is_plan_paused

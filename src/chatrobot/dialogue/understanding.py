@@ -22,7 +22,7 @@ from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
 from chatrobot.language.phrases import describe_steps, render_reason, say
 from chatrobot.language.speed_limit import kept_within, within_limit
 from chatrobot.plan.steps import Plan, Step
-from chatrobot.robots.profile import RobotProfile
+from chatrobot.robots.profile import OPEN_LOOP, RobotProfile
 from chatrobot.sim.world import World
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class Understanding:
         # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
         self.places = Places(folder, profile.name, uuid.uuid4().hex)
         self._rest = RestWatch()
-        self._started = False
+        self._started, self._reaches_robot = False, True
         self.language: LanguageCode = "en"
         self._last: tuple[str, Context] | None = None
         """The text that was interpreted last, and what was known then."""
@@ -137,9 +137,18 @@ class Understanding:
         """True where the robot has odometry, as far as is known."""
         return self._state.is_measured
 
-    def note_open_loop(self) -> None:
-        """Note that Motion drives without odometry, whatever our profile says."""
-        self._state = replace(self._state, is_measured=False)
+    def note_notice(self, code: str) -> None:
+        """Note that Motion drives without odometry, whatever our profile says, or that it reaches no robot now."""
+        if code == OPEN_LOOP:
+            self._state = replace(self._state, is_measured=False)
+        elif code in ("wire_gone", "wire_back"):
+            self._reaches_robot = code == "wire_back"
+
+    def stop_code(self, code: str = "stopped_now") -> str:
+        """Return the phrase of a stop that is true: what nobody reaches or measures is not said to stand."""
+        if not self._reaches_robot:
+            return f"{code}_unreached"
+        return code if self.is_measured else f"{code}_unmeasured"
 
     @property
     def hears_robot(self) -> bool:
