@@ -261,6 +261,11 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("go back 1 m", "now drive 2 m that way"), "drive 2 m back"),
         (("draw a square and drive 1 m",), f"{_SQUARE}; drive 1 m"),
         (("drive 1 m, draw a square",), f"drive 1 m; {_SQUARE}"),
+        (
+            ("draw a square and a circle and go home",),
+            f"{_SQUARE}; arc left 360 deg radius 0.5 m; go to 0 0 from start",
+        ),
+        (("go 1 m, circle, go 1 m",), "drive 1 m; arc left 360 deg radius 0.5 m; drive 1 m"),
         (("draw a square and slide left 1 m",), f"{_SQUARE}; drive 1 m left"),
         (("draw a circle and drive forward",), "arc left 360 deg radius 0.5 m; drive 0.5 m"),
         (("forward, circle, forward",), "drive 0.5 m; arc left 360 deg radius 0.5 m; drive 0.5 m"),

@@ -211,6 +211,13 @@ ALONE = [
     ("go forward twice 40 cm plus 15 cm",),
 ]
 AFTER_OTHERS = [
+    (
+        "remember this as kitchen",
+        "go 1 m",
+        "remember this as desk",
+        "turn left, go 2 m",
+        "desk, then 1 m towards the kitchen",
+    ),
     ("remember this place as base", "drive 2 m", "drive away from base"),
     ("remember this place as base", "drive 2 m", "go anywhere but base"),
     ("drive 2 m", "10% more"),

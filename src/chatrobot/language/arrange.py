@@ -213,8 +213,9 @@ def _in_said_order(shape: Frame, before: list[Frame]) -> list[Frame]:
 
 def _is_measure(frame: Frame, shape: Frame) -> bool:
     """`Drive 2 m by 1 m rectangle`; where both have a verb, `drive 1 m and draw a circle`, it is its own motion."""
+    named = shape.joined == "none" or "length" in shape.q
     bare = not frame.moves or (
-        frame.verb in (("",) if shape.verb else ("go", ""))
+        frame.verb in (("go", "") if named and not shape.verb else ("",))
         and not (frame.direction or frame.shape or frame.place)
     )
     lone_rotation = bool(frame.rot) and not (frame.verb or frame.q or frame.direction or frame.shape)

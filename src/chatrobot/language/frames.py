@@ -166,7 +166,10 @@ class Frame:
         """What it does. False where that begins a motion of its own."""
         old = self.verb
         if self.place and verb in ("go", "return", "shift"):
-            return verb != "return" or old not in GO  # `go to the kitchen and back`: there, and another way
+            return verb != "return" or old not in (
+                *GO,
+                "",
+            )  # `to the kitchen and back`: there, and another way
         if verb in STILL and old not in STILL and (old in GO or self.place or self._says_a_motion()):
             return False
         same = ("go", "turn", "shift", "slide", "wait", "halt", "face", "make", "curve")

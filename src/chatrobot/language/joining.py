@@ -154,8 +154,9 @@ def _is_by_the_way(turn: Frame) -> bool:
 def _is_beside_shape(frame: Frame, shape: Frame) -> bool:
     """`… and turn around`, `… and wait`, `… and go 1 m`: a motion of its own, not how a shape is drawn."""
     told = frame.has_extent or (frame.sided and frame.joined == "and" and not _is_by_the_way(frame))
-    ways = frame.direction in ("forward", "back") or "to_start" in frame.flags or bool(frame.place)
-    told = told or bool(shape.verb and ways and not _is_by_the_way(frame))  # `go home and draw a square`
+    leads = ("to_start" in frame.flags or frame.place) and not frame.rot  # `go home and draw a square`
+    ways = leads or (shape.verb and frame.direction in ("forward", "back"))
+    told = told or bool(ways and not _is_by_the_way(frame))
     if frame.is_bare_ahead and frame.joined in ("start", "weak"):
         return not shape.has_extent  # `forward, circle, forward`
     own = frame.verb in ("uturn", "return") or (frame.verb in (*GO, *TURN, *STILL) and told)

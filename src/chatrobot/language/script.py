@@ -11,9 +11,10 @@ from chatrobot.language.changes import changed
 from chatrobot.language.ellipsis import State
 from chatrobot.language.frames import PLACE_HEADING, Frame
 from chatrobot.language.manner import Pace
+from chatrobot.language.standing import lies_on_the_way
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Face, Go, Step
+from chatrobot.plan.steps import MAX_REPEAT, Arc, Drive, Face, Go, Step, Turn, Wait
 
 
 @dataclass
@@ -166,6 +167,12 @@ def _known(frame: Frame, script: Script) -> list[Step]:
     go = places.get(frame.place) or (standing(frame.place, places) if standing else None)
     if go is None:
         raise Unclear("place_unusable", frame.place)
+    if lies_on_the_way(frame.place) and not all(
+        isinstance(step, (Turn, Wait)) for step in script.state.steps
+    ):
+        raise Unclear(
+            "unclear_motion", frame.text
+        )  # `go to the desk, then 1 m towards the kitchen`: from there
     faces = PLACE_HEADING in frame.flags
     if faces and go.yaw_rad is None:
         raise Unclear("place_has_no_heading", frame.place)

@@ -93,7 +93,7 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         return False
     ahead = frame.direction in ("forward", "back") and frame.verb in GO and not frame.has_extent
     by_the_way = frame.text.split()[0].endswith("ing")
-    if frame.is_bare_ahead or (ahead and head.verb and not by_the_way):
+    if frame.is_bare_ahead or (ahead and (head.verb or frame.joined == "and") and not by_the_way):
         return False  # `draw a circle and drive forward`
     goes_on = frame.direction in ("forward", "back") and set(frame.q) == {"length"} and not frame.roles
     if goes_on and head.shape in ("quarter_circle", "half_circle", "circle"):

@@ -162,6 +162,11 @@ def _check_the_one(atoms: Sequence[Atom], i: int) -> None:
         raise Unclear("which_place", atoms[i].text)
 
 
+def lies_on_the_way(said: str) -> bool:
+    """Whether the value of such an atom is a point of the way there, which begins where the robot is."""
+    return said.split(_MARK)[0] in ("halfway", "towards")
+
+
 def stood(said: str, places: Mapping[str, Go], context: Context) -> Go | None:
     """The point that the value of such an atom means; None where it is no such value.
 
@@ -180,7 +185,7 @@ def stood(said: str, places: Mapping[str, Go], context: Context) -> Go | None:
         (ax, ay), (bx, by) = ((go.x_m, go.y_m) for go in there)
         return _to((ax + bx) / 2.0, (ay + by) / 2.0)
     goal = Pose(there[0].x_m, there[0].y_m)
-    if relation in ("halfway", "towards"):
+    if lies_on_the_way(said):
         return _on_the_way(here, goal, off_m, names[0], context)
     ring = list(context.rings(goal)) if context.rings is not None else []
     if not ring:
