@@ -26,6 +26,7 @@ _ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不�
 """Corrections only after something in the same sentence."""
 _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
 _DENIALS = frozenset({"不是", "not that"})
+_ONLY_DENYING = frozenset({"not", "don't", "do not", "never"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape", "place")
@@ -115,6 +116,8 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     )
     denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
     negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
+    if lone and not swapped and _is_denied(atoms, at):  # `no, not left`
+        raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
     opposite = [a for a in atoms[:at] if a.value in _OPPOSITE]
     if (said or denied) and opposite and not real:
         return [Atom("flag", MEANT, (said or atoms)[0].text), opposite[0]]  # 不对，反方向
@@ -124,6 +127,14 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
         start = at if meant or not negated else 0
         return [Atom("flag", MEANT, (said or atoms)[0].text), *atoms[start:]]
     return atoms
+
+
+def _is_denied(atoms: Sequence[Atom], at: int) -> bool:
+    """Whether what begins at `at` is the last part, and a `not` behind a mark stands before it: no `not left, right`."""
+    before = [a for a in atoms[:at] if a.kind not in ("filler", "glue")]
+    last = not any(a.kind in ("sep", "conn", "negation") and a.text not in ".!?" for a in atoms[at:])
+    opens = any(a.kind in ("sep", "correction") for a in before)
+    return last and opens and (before[-1].text in _DENIALS or before[-1].text in _ONLY_DENYING)
 
 
 def _is_correction(atoms: list[Atom], i: int) -> bool:
@@ -172,6 +183,8 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         end += 1
     said, rest = after[start:end], after[end:]
     pieces = [a for a in said if a.kind in _PIECE]
+    if start and after[start - 1].text in _ONLY_DENYING and not any(a.kind in _PIECE for a in rest):
+        raise Unclear("only_forbidden", " ".join(a.text for a in after))  # `stop, I wanted not left`
     unit = next((a for a in said if a.kind in ("unit_length", "unit_angle", "unit_time")), None)
     last = next((i for i in range(len(before) - 1, -1, -1) if before[i].kind == "q"), None)
     if not pieces and unit is not None and last is not None and before[last].value == "number":
