@@ -30,6 +30,7 @@ _ONLY_DENYING = frozenset({"not", "don't", "do not", "never"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape", "place")
+_REPLACED = frozenset({"q", "dir", "rot"})
 _OFTEN = 12
 """A bare number above is rather an amount than so many times."""
 MEANT = "meant"
@@ -143,8 +144,8 @@ def _is_correction(atoms: list[Atom], i: int) -> bool:
         if atom.text in _ONLY_AFTER:
             return i > 0 and any(a.kind in _PIECE for a in atoms[:i])
         return True
-    if atom.kind == "flag" and atom.value == "instead" and is_chinese(atom.text):
-        return any(a.kind == "q" for a in atoms[:i]) and any(a.kind in _PIECE for a in atoms[i + 1 :])
+    if atom.kind == "flag" and atom.value == "instead" and is_chinese(atom.text):  # 左转改成右转
+        return any(a.kind in _REPLACED for a in atoms[:i]) and any(a.kind in _PIECE for a in atoms[i + 1 :])
     if atom.text not in _NO or atom.kind not in ("filler", "negation", "verb", "glue"):
         return False
     if not any(a.kind in _PIECE for a in atoms[:i]) or atoms[i - 1].kind not in ("sep", "filler"):

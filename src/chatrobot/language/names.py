@@ -30,11 +30,14 @@ def names_in(context: Context) -> dict[Key, Meaning]:
     dialogue = context.dialogue
     names: dict[Key, Meaning] = {}
     for name in (*context.world_places, *dialogue.places):
-        if ("num", "article") not in lexicon().words.get(cut(name), ()):  # `half a metre` names no place
+        is_article = ("num", "article") in lexicon().words.get(cut(name), ())  # `half a metre` names no place
+        if not is_article:
             names[cut(normalise(word_of(name)))] = (("place", name),)
         if len(name) == 1:  # A is also called `point A`, 去A点
             for language in LANGUAGES:
-                for written in load_table(language, "dialogue_forms").get("letter_places", ()):
+                table = load_table(language, "dialogue_forms")
+                led_to = table.get("article_places", ()) if is_article else ()
+                for written in (*table.get("letter_places", ()), *led_to):
                     names[cut(written.format(letter=name))] = (("place", name),)
     for word, plan in dialogue.words.items():
         counter = ("counter", word) in lexicon().words.get(cut(word), ())
