@@ -58,7 +58,7 @@ class Conversation:
             places,
             {**words, **meant.define},
             self.dialogue.usual.changed(meant.usual),
-            pending=text if meant.outcome == "unclear" and not meant.is_held else "",
+            pending=meant.open_text or text if meant.outcome == "unclear" and not meant.is_held else "",
             held=meant.held_plan,
             offered=meant.offered_plan,
         )

@@ -358,6 +358,21 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("往前走两米", "算了回到你最开始出发那个地方去"), "go to 0 0"),
         (("So, erstma anderthalb Meter geradeaus.", "Und dat Ganze nomma."), "drive 1.5 m"),
         (("Auffer Stelle 135 Grad nach rechts drehn.",), "turn right 135 deg"),
+        (("drive 100", "yes, then turn left"), "drive 1 m; turn left 90 deg"),
+        (("draw a 1 m circle", "1 m", "radius 1 m"), "arc left 360 deg radius 1 m"),
+        (("slide", "1 m", "left"), "drive 1 m left"),
+        (("drive 1 m twice with a break of 2 seconds",), "drive 1 m; wait 2 s; drive 1 m"),
+        (
+            ("draw a circle and another circle to the right",),
+            "arc left 360 deg radius 0.5 m; arc right 360 deg radius 0.5 m",
+        ),
+        (("turn all the way around",), "turn left 360 deg"),
+        (("turn left 3 times around",), "turn left 1080 deg"),
+        (("drive 1 m in 5 seconds from now",), "wait 5 s; drive 1 m"),
+        (("get away",), "drive 0.5 m back"),
+        (("not only turn left but also drive 1 m",), "turn left 90 deg; drive 1 m"),
+        (("turn right, but a bit faster",), "turn right 90 deg at 1.02 rad/s"),
+        (("inch forward",), "drive 0.25 m"),
     ],
 )
 def test_the_last_turn_is_done(turns: tuple[str, ...], plan: str) -> None:

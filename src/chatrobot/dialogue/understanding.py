@@ -251,7 +251,7 @@ class Understanding:
                 self.places.add(meant.remember_place, self._state.pose)
         outcomes: dict[str, Outcome] = {"unclear": "unclear", "refused": "refused", "answered": "answered"}
         self._record(TurnRecord(text, outcomes.get(meant.outcome, "stopped"), told=meant.reply))
-        pending = text if meant.outcome == "unclear" and not meant.is_held else ""
+        pending = meant.open_text or text if meant.outcome == "unclear" and not meant.is_held else ""
         held, offered = meant.held_plan, meant.offered_plan
         self._dialogue = replace(self._dialogue, pending=pending, held=held, offered=offered)
 

@@ -66,11 +66,12 @@ def _begins_talk(reads: Sequence[Read]) -> bool:
     """`right, that was good`: a word of motion that only agrees, because nothing but talk comes after it."""
     if len(reads) < 2 or any(read.clause.moves for read in reads[1:]) or not reads[1].clause.talks:
         return False
-    return tuple(sign.text for sign in reads[0].clause.signs) in _agreeing()
+    return tuple(sign.text for sign in reads[0].clause.signs) in agreeing()
 
 
 @lru_cache(maxsize=1)
-def _agreeing() -> frozenset[tuple[str, ...]]:
+def agreeing() -> frozenset[tuple[str, ...]]:
+    """The words of motion that may only agree: `right`."""
     return frozenset((word,) for code in LANGUAGES for word in load_table(code, "agreeing").get("words", ()))
 
 

@@ -27,12 +27,15 @@ def with_answered_amount(before: str, answer: str, reading: Reading) -> Interpre
         Unclear: where the amount fits no bare number: said beside it, it would be driven in addition.
     """
     atoms = reading.atoms(answer)
-    if not _is_amount(atoms, reading.atoms(before)):
+    told = [atom for atom in atoms if atom.kind != "role"]
+    if not _is_amount(told, reading.atoms(before)):
         return None
     try:
         read_command(before, reading)
     except Unclear as problem:
-        if problem.code != "no_unit" or not problem.part:
+        if problem.code == "which_size":
+            return _sized(before, answer, reading)
+        if problem.code != "no_unit" or not problem.part or told != atoms:
             return None
         for found in re.finditer(rf"(?<![\da-z.]){re.escape(problem.part)}(?![\da-z.])", before):
             amended = _plan_of(f"{before[: found.start()]} {answer} {before[found.end() :]}", reading)
@@ -40,6 +43,13 @@ def with_answered_amount(before: str, answer: str, reading: Reading) -> Interpre
                 return amended
         raise
     return None
+
+
+def _sized(before: str, answer: str, reading: Reading) -> Interpretation | None:
+    """A shape with the size of `answer`: `radius 1 m`, after `draw a 1 m circle`."""
+    lengths = [atom.text for atom in reading.atoms(before) if (atom.kind, atom.value) == ("q", "length")]
+    sizeless = before.replace(lengths[0], "", 1) if len(lengths) == 1 else before
+    return _plan_of(f"{sizeless} {answer}", reading)
 
 
 def _is_amount(atoms: list[Atom], before: list[Atom]) -> bool:

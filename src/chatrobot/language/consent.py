@@ -48,9 +48,13 @@ def _pattern(answer: str) -> re.Pattern[str]:
 
 @cache
 def _leading_yes() -> re.Pattern[str]:
-    """Chinese is written without spaces: only a comma or a `but` tells 好，慢一点 from 好慢."""
+    """Chinese is written without spaces: only a comma or a `but` tells 好，慢一点 from 好慢.
+
+    `Yes, then turn left`: what comes after a comma so goes on from what is agreed to.
+    """
     ends = rf"(?:(?<={_MARK})|(?={_any_of('but')}))"
-    return re.compile(f"{_GAP}{_beside()}(?:{_any_of('yes')}{_GAP}{_beside()})+{ends}(?P<rest>.+)")
+    beside = rf"(?:(?!(?<=[,.!] ){_any_of('after')}){_any_of('courtesy')}{_GAP})*"
+    return re.compile(f"{_GAP}{_beside()}(?:{_any_of('yes')}{_GAP}{beside})+{ends}(?P<rest>.+)")
 
 
 def _beside() -> str:
@@ -59,6 +63,8 @@ def _beside() -> str:
 
 def _any_of(name: str) -> str:
     """Longest first; a Latin word ends where its letters end, Chinese is written without spaces."""
-    phrases = [phrase for language in REPLY_LANGUAGES for phrase in load_table(language, "consent")[name]]
+    phrases = [
+        phrase for language in REPLY_LANGUAGES for phrase in load_table(language, "consent").get(name, ())
+    ]
     found = "|".join(re.escape(phrase) for phrase in sorted(phrases, key=len, reverse=True))
     return rf"(?:(?:{found})(?:(?<![a-z])|(?<=[a-z])(?![a-z0-9'])))"

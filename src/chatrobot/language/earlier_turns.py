@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import lru_cache
 
 from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts, without
@@ -24,6 +25,7 @@ from chatrobot.language.talk import not_ordered
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.unfinished import check_consistent
 from chatrobot.plan.steps import Arc, Drive, Plan, Turn
 
 _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
@@ -33,6 +35,8 @@ _UNANSWERED = frozenset(
     {"only_forbidden", "no_lasting_rule", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
 )
 """What was said of an order that no word of an answer could complete."""
+_OF_ONE_MOTION = frozenset({"which_side", "which_way", "which_size"})
+"""What was asked of an order whose motion is known."""
 _TELLING = frozenset({"q", "num", "dir", "rot", "pace"})
 _MOTION = frozenset(
     {"verb", "dir", "rot", "q", "shape", "place", "number", "negation", "correction", "condition"}
@@ -71,6 +75,7 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
     for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
         try:
+            check_consistent(joined, reading.language)
             found = read_command(joined, reading)
         except Unclear:
             continue
@@ -84,7 +89,26 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
+    _ask_again(before, plain, reading)
     return None
+
+
+def _ask_again(before: str, plain: str, reading: Reading) -> None:
+    """`1 m`, after `draw half a circle`: it answers another question than was asked, and is no order of its own.
+
+    Raises:
+        Unclear: what was asked before, where nothing but an amount or a way was said to it.
+    """
+    if any(atom.kind not in SILENT | _TELLING | {"role", "glue"} for atom in reading.atoms(plain)):
+        return
+    dialogue = reading.context.dialogue
+    then = replace(reading.context, dialogue=replace(dialogue, turns=dialogue.turns[:-1], pending=""))
+    try:
+        read_command(before, replace(reading, context=then))
+    except Unclear as problem:
+        if problem.code in _OF_ONE_MOTION:
+            said = "" if problem.code == "which_size" else f", {plain}"
+            raise Unclear(problem.code, problem.part, open_text=f"{dialogue.pending}{said}") from None
 
 
 def _is_open(pending: str, reading: Reading) -> bool:

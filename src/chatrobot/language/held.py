@@ -28,7 +28,7 @@ from chatrobot.language.resizing import resized
 from chatrobot.language.rules import form, forms
 from chatrobot.language.starting import without_hold
 from chatrobot.language.step_kinds import places_of
-from chatrobot.language.tokens import Atom
+from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import once_of
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
@@ -110,11 +110,16 @@ def changed_in_part(plain: str, plan: Plan, reading: Reading, read_anew: ReadAne
             if not kept:
                 raise Unclear("unclear_motion", plain[:60])
             return kept
-    for change in (_of_one, _of_last):
+    found = _said("added", plain, reading)
+    ways = (
+        [atom for atom in reading.atoms(found["new"]) if atom.kind not in SILENT] if found is not None else []
+    )
+    for change in (_of_one, _of_last) if not any(a.kind in ("dir", "rot", "verb") for a in ways) else ():
         new = change(plain, steps, reading)
         if new is not None:
             return new
-    found = _said("added", plain, reading)
+    if len(ways) == 1 and ways[0].kind != "q":  # `and back`: how far?
+        raise Unclear("how_far", plain[:60])
     return [*steps, *_steps(read_anew(found["new"]))] if found is not None else None
 
 

@@ -55,11 +55,12 @@ class Interpretation:
     """What an utterance means.
 
     `unaccounted` is the part that nothing explains, `code` the reason in a word (see `phrases.toml`).
-    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last seven
+    `append`: it goes on where the running motion ends. `proposal`: the reply asks about that plan. The last eight
     are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
     the robot stands now, `walk` what of the ledger of turns the plan undoes or does again; `corrects`: it puts the
     turn before right; `renamed`: what a taught place or word is called from now on, nothing where it is forgotten;
-    `obstacle`: what is to be put into the simulation or taken out of it; `usual`: what is set from now on.
+    `obstacle`: what is to be put into the simulation or taken out of it; `usual`: what is set from now on;
+    `open_text`: what a question asks about, where that is not the text itself.
     """
 
     outcome: Outcome
@@ -77,6 +78,7 @@ class Interpretation:
     renamed: Mapping[str, str] = field(default_factory=dict)
     obstacle: Placement | None = None
     usual: Usual = field(default_factory=Usual)
+    open_text: str = ""
 
     @property
     def is_held(self) -> bool:
@@ -166,4 +168,6 @@ def asked_back(problem: Unclear, language: LanguageCode, before: str = "") -> In
         reply = say(language, "nothing_in_before", before=before[:_QUOTED])
     else:
         reply = say(language, problem.code, part=problem.part)
-    return Interpretation(outcome, reply, language, unaccounted=problem.part, code=problem.code)
+    return Interpretation(
+        outcome, reply, language, unaccounted=problem.part, code=problem.code, open_text=problem.open_text
+    )

@@ -58,10 +58,9 @@ from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.speed_limit import bounded, plan_within, within_limit, without_limit
 from chatrobot.language.starting import (
+    as_ordered,
     has_a_stop_line,
-    mended_alone,
     with_told_apart,
-    without_call_sign,
     without_hold,
 )
 from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
@@ -109,7 +108,7 @@ class OfflineInterpreter:
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         said = with_told_apart(in_full(normalise(text), language), language)
-        text = with_spoken_place(mended_alone(without_call_sign(said, language)), language, context)
+        text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
         reason = not_ordered(text, language, meant.plan, context.dialogue) if offers else ""

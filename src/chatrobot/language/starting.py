@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Sequence
 
 from chatrobot import reflex
+from chatrobot.language.consent import after_consent
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import GO, Frame
@@ -49,6 +50,15 @@ def without_hold(plain: str, language: str) -> str:
     if rest == plain:
         rest = form(language, "starting", "held_opening").sub("", plain)
     return form(language, "starting", "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
+
+
+def as_ordered(plain: str, language: str, dialogue: Dialogue) -> str:
+    """A normalised text without its call sign, and without a slip in the one word that it is.
+
+    A yes to what was asked is no call: `yes, and back`.
+    """
+    answers = dialogue.offered is not None and after_consent(plain) is not None
+    return mended_alone(plain if answers else without_call_sign(plain, language))
 
 
 def without_call_sign(plain: str, language: str) -> str:

@@ -6,12 +6,16 @@ from __future__ import annotations
 class Unclear(Exception):  # noqa: N818 - not an error: the interpreter turns it into a question
     """Raised inside `language` only; `interpret` always turns it into an `unclear` or `refused` answer.
 
-    `is_final`: other breaks between its clauses do not make the text any clearer.
+    `is_final`: other breaks between its clauses do not make the text any clearer. `open_text`: the text answers
+    another question than was asked; this is what the question stays open of.
     """
 
-    def __init__(self, code: str, part: str = "", *, refused: bool = False, is_final: bool = False) -> None:
+    def __init__(
+        self, code: str, part: str = "", *, refused: bool = False, is_final: bool = False, open_text: str = ""
+    ) -> None:
         self.code = code
         self.part = part
         self.refused = refused
         self.is_final = is_final
+        self.open_text = open_text
         super().__init__(f"{code}: {part}")

@@ -49,6 +49,7 @@ def check_consistent(text: str, language: str, names: Collection[Key] = ()) -> N
     known = [sep.join(name) for name in names for sep in (" ", "")]  # the second: 圆圈 is two words
     for name in _ASKED:
         _check(text, language, name, known if name == "untaught" else ())
+    _check_beside_places(text, language, known)
 
 
 def check_unconditional(text: str, language: str) -> None:
@@ -66,6 +67,15 @@ def _check(text: str, language: str, name: str, known: Collection[str] = ()) -> 
     found = filter(None, (rule.search(text) for rule in _rules(language, name)))
     if any(not any(word in part.group() for word in known) for part in found):
         raise Unclear(_ASKED[name], text[:_SHOWN], is_final=name in ("unread", "untaught"))
+
+
+def _check_beside_places(text: str, language: str, known: Sequence[str]) -> None:
+    """Ask back where what stands beside the name of a taught place makes it no way to it: `return from base`."""
+    for rule in _rules(language, "of_place") if known else ():
+        found = rule.search(text)
+        named = [name for name in known if re.search(rf"\b{re.escape(name)}\b", found[0])] if found else []
+        if found and named and re.match(rf"{re.escape(max(named, key=len))}\b", found["place"]):
+            raise Unclear("unclear_motion", text[:_SHOWN], is_final=True)
 
 
 @cache

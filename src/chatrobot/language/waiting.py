@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from chatrobot.language.acts import agreeing
 from chatrobot.language.answers import with_manner
 from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
@@ -79,9 +80,12 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
     try:
         found = amended(agreed or text, offered, reading, meant, is_agreed=agreed is not None)
     except Unclear as problem:
-        return asked_back(problem, language) if agreed is not None else None
+        if agreed is not None:
+            return asked_back(problem, language)
+        found = None
     if found is None:
-        return None
+        may_agree = (text.strip(" .,!").casefold(),) in agreeing()  # `right!`
+        return proposed(planned([*offered.steps], language), language) if may_agree else None
     done = planned(list(found.steps), language)
     was_clear = bool(context.dialogue.turns) and context.dialogue.turns[-1].outcome == "refused"
     if agreed is not None or (was_clear and _corrects(text, language)) or meant(text, context).plan == found:
