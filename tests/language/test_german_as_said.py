@@ -47,6 +47,9 @@ ASKED = [
     ("mach eine Rolle vorwärts",),
     ("die zweite rechts, bitte",),
     ("dreh dich halb um",),
+    ("rechts, dann zurück",),
+    ("links, rechts, nein, nochmal links",),
+    ("kannst du nicht mal links fahren",),
 ]
 DONE = [
     (("zum Schluss links, zuerst rechts",), "turn right 90 deg; turn left 90 deg"),
@@ -66,6 +69,8 @@ DONE = [
     (("merk dir diesen Ort als A", "fahr einen Meter vor", "fahr zu A"), 'go to 0 0 named "a"'),
     (("dreh dich auf drei Uhr",), "turn right 90 deg"),
     (("leicht links",), "turn left 45 deg"),
+    (("mach einen großen Bogen nach rechts",), "arc right 90 deg radius 1 m"),
+    (("links und links",), "turn left 90 deg; turn left 90 deg"),
     (("gib Gas rückwärts",), "drive 0.5 m back at 0.51 m/s"),
 ]
 

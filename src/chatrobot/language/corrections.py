@@ -131,7 +131,7 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
 
 
 def _is_denied(atoms: Sequence[Atom], at: int) -> bool:
-    """Whether what begins at `at` is the last part, and a `not` behind a mark stands before it: no `not left, right`."""
+    """Whether what begins at `at` is the last part, and denied behind a mark; but not `not left, right`."""
     before = [a for a in atoms[:at] if a.kind not in ("filler", "glue")]
     last = not any(a.kind in ("sep", "conn", "negation") and a.text not in ".!?" for a in atoms[at:])
     opens = any(a.kind in ("sep", "correction") for a in before)
