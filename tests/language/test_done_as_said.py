@@ -370,6 +370,7 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("turn left 3 times around",), "turn left 1080 deg"),
         (("drive 1 m in 5 seconds from now",), "wait 5 s; drive 1 m"),
         (("get away",), "drive 0.5 m back"),
+        (("heads up, turn left",), "turn left 90 deg"),
         (("not only turn left but also drive 1 m",), "turn left 90 deg; drive 1 m"),
         (("turn right, but a bit faster",), "turn right 90 deg at 1.02 rad/s"),
         (("inch forward",), "drive 0.25 m"),

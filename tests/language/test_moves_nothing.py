@@ -215,6 +215,7 @@ ALONE = [
     ("go back to Bob",),
     ("say turn left three times",),
     ("draw a 6 pointed star",),
+    ("stop sign, turn left",),
     ("draw a line to the right",),
     ("drive in all directions",),
     ("drive 1 m but stop at the line",),
