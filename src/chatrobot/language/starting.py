@@ -107,7 +107,8 @@ def mended_alone(text: str) -> str:
 
 def _is_bare(frame: Frame) -> bool:
     """Neither a direction nor an amount: `go`, `drive slowly`."""
-    told = frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words or frame.flags
+    flags = frame.flags - {"more"}  # 继续走
+    told = frame.direction or frame.rot or frame.q or frame.shape or frame.place or frame.words or flags
     return not told and frame.verb in ("", "make", *GO)
 
 
