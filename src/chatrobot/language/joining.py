@@ -46,7 +46,7 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
         return True  # `hop, hop`
     if last.place and (first.direction or first.place or first.verb == "return" or "to_start" in first.flags):
         return True  # `go to the kitchen and back`: to a place, then another way
-    if _goes_and_turns(last, first) or _goes_and_turns(first, last):
+    if _are_two_orders(last, first, joined):
         return True
     if joined == "and" and last.verb and last.verb == first.verb and last.sided and not last.has_extent:
         return not first.q and (last.direction, last.rot) == (first.direction, first.rot)
@@ -69,9 +69,35 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
     return bool("all" in last.flags or again)
 
 
-def _goes_and_turns(way: Frame, turn: Frame) -> bool:
-    """`Go home and spin around`."""
-    return "to_start" in way.flags and bool(way.verb) and way.verb not in TURN and turn.verb in TURN
+def _are_two_orders(last: Frame, first: Frame, joined: str) -> bool:
+    """`Spin twice and draw a circle`, `curve left and drive 1 m`, `go home, spin around`: each with its own verb."""
+    kinds = {_kind(last), _kind(first)}
+    if joined not in ("and", "weak", "strong") or "" in kinds or len(kinds) == 1:
+        return False
+    if any(
+        _is_by_the_way(frame) or (frame.roles and not frame.shape) for frame in (last, first) if frame.texts
+    ):
+        return False
+    if joined != "weak":
+        return True
+    if _kind(first) == "turn" and set(first.q) <= {"times", "turns"}:
+        return kinds == {"home", "turn"}  # `a square, turn left`, `a circle, twice round`: how it is drawn
+    ahead = kinds == {"home", "go"}  # `drive on, drive to the start`: the same way
+    return bool(last.verb and first.verb and kinds & {"shape", "home", "place"}) and not ahead
+
+
+def _kind(frame: Frame) -> str:
+    """Which kind of motion a frame orders by itself; "" where it may tell how another is done."""
+    if frame.flags & {"each", "all", "after_each", "between", "again"}:
+        return ""
+    leads = "home" if "to_start" in frame.flags else "place" if frame.place else ""
+    if frame.shape or leads:
+        return "shape" if frame.shape else leads if frame.verb else ""
+    if frame.verb in TURN:
+        return "turn" if frame.sided or frame.has_extent or "times" in frame.q else ""
+    if frame.verb in ("curve", "uturn"):
+        return frame.verb
+    return frame.verb if frame.verb in GO and (frame.direction or frame.has_extent) else ""
 
 
 def _tells_pace(frame: Frame) -> bool:

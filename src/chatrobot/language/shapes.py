@@ -17,6 +17,8 @@ from chatrobot.plan.steps import Step
 _TITLES = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "zigzag", "square", "rectangle"})
 """Shapes whose moves may be spelt out after their name."""
 
+_DRAWN_ON = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "sbend"})
+"""Shapes whose lines may be told one by one behind their name, with verbs."""
 _EACH = frozenset({"all", "each"})
 _STRAIGHT = (
     "square",
