@@ -19,6 +19,8 @@ _TITLES = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "zigz
 
 _DRAWN_ON = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "sbend"})
 """Shapes whose lines may be told one by one behind their name, with verbs."""
+_DRAWN_ON = frozenset({"letter_l", "letter_u", "letter_z", "stairs", "plus", "sbend"})
+"""Shapes whose lines may be told one by one behind their name, with verbs."""
 _EACH = frozenset({"all", "each"})
 _STRAIGHT = (
     "square",
@@ -105,13 +107,8 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     is_straight = head.shape.startswith(_STRAIGHT)
     if frame.shape and (is_straight or frame.shape not in ("half_circle", "quarter_circle", "circle")):
         return False
-    beside = frame.joined in ("and", "then", "strong") and frame.verb in GO and head.verb
-    if (
-        beside
-        and head.shape in ("square", "rectangle", "zigzag")
-        and not (_EACH & frame.flags or frame.roles)
-    ):
-        return False  # `draw a square and drive 1 m`
+    if _is_beside(head, frame) and not by_the_way:
+        return False
     if head.shape in _TITLES and frame.has_extent and (frame.direction or frame.verb in GO):
         return True
     lone_side = frame.direction in SIDES and not frame.q and frame.verb in ("", "curve", "turn")
@@ -129,6 +126,20 @@ def _is_part(head: Frame, frame: Frame) -> bool:
         and "each" not in frame.flags
         and "count" not in frame.q
     )
+
+
+def _is_beside(head: Frame, frame: Frame) -> bool:
+    """`Draw a square and drive 1 m`, `draw a circle, go to x 1 y 1`: whether it is a motion of its own by its verb."""
+    if frame.joined in ("start", "none") or (frame.verb == "make" and not frame.shape):
+        return False  # a measure that was said before the shape
+    if head.shape in _DRAWN_ON or not frame.verb or _EACH & frame.flags or (frame.roles and not frame.shape):
+        return False
+    told = bool({"length", "angle", "time"} & set(frame.q)) or frame.verb == "slide"
+    if frame.joined in ("and", "then", "strong"):
+        goes_round = frame.verb in GO and bool(frame.rot)  # `…, go anticlockwise`: how it is drawn
+        sided = frame.sided and not goes_round
+        told = told or sided or frame.verb == "curve" or "times" in frame.q or bool(frame.shape)
+    return bool(frame.place or (told and (head.verb or frame.joined != "weak")))
 
 
 def _spelt_out(parts: list[Frame], pace: Pace) -> list[Step] | None:
