@@ -78,6 +78,8 @@ def _are_two_orders(last: Frame, first: Frame, joined: str) -> bool:
         _is_by_the_way(frame) or (frame.roles and not frame.shape) for frame in (last, first) if frame.texts
     ):
         return False
+    if "shape" in kinds and (_is_laps(last) or _is_laps(first)):
+        return False  # `a circle, go round twice`
     if joined != "weak":
         return True
     if _kind(first) == "turn" and set(first.q) <= {"times", "turns"}:
