@@ -304,6 +304,10 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("go forward 2 m", "now the same, only backwards", "one more like that last one"), "drive 2 m back"),
         (("turn left 60 degrees", "take 15 back off of it"), "turn right 15 deg"),
         (("remember this as square", "go forward 1 m", "go to the square"), 'go to 0 0 named "square"'),
+        (
+            ("remember this as cross aisle", "go 1 m", "go to the cross aisle"),
+            'go to 0 0 named "cross aisle"',
+        ),
         (("记住这里是圆圈", "前进一米", "回到圆圈那里"), 'go to 0 0 named "圆圈"'),
         (("转两圈吧，往右转哦",), "turn right 720 deg"),
         (("向左绕半个圆，半径呢，就一米吧",), "arc left 180 deg radius 1 m"),

@@ -64,8 +64,9 @@ def check_unconditional(text: str, language: str) -> None:
 
 
 def _check(text: str, language: str, name: str, known: Collection[str] = ()) -> None:
-    found = filter(None, (rule.search(text) for rule in _rules(language, name)))
-    if any(not any(word in part.group() for word in known) for part in found):
+    found = [part for rule in _rules(language, name) if (part := rule.search(text)) is not None]
+    named = [span.span() for word in known if found for span in re.finditer(re.escape(word), text)]
+    if any(not any(start < part.end() and part.start() < end for start, end in named) for part in found):
         raise Unclear(_ASKED[name], text[:_SHOWN], is_final=name in ("unread", "untaught"))
 
 
