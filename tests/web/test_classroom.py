@@ -149,8 +149,8 @@ def velocities_of(ear: Heard) -> list[bool]:
 def test_a_program_and_a_text_without_end_cost_the_others_nothing(pupils: RunningClass) -> None:
     drive(pupils, 0)
     undisturbed = velocities_of(pupils.heard[0])
-    (kept,) = (pupils.folder / "chatrobot").glob("class-*/class")
-    Library(kept / "pupil-2").keep(KeptProgram("busy", ENDLESS_PROGRAM))
+    (kept,) = (pupils.folder / "chatrobot").glob("class-*")
+    Library(kept / "class" / "pupil-2").keep(KeptProgram("busy", ENDLESS_PROGRAM))
     program = {"do": "edit_program", "name": "busy", "source": ENDLESS_PROGRAM}
     texts = {"do": "say", "text": ENDLESS_TEXT}, {"do": "say_plan", "plan_text": ENDLESS_PLAN}
     with kept_busy(pupils.pupil(1), program), kept_busy(pupils.pupil(2), *texts):
