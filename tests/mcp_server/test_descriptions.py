@@ -9,7 +9,8 @@ import pytest
 from mcp_types import Tool
 
 from chatrobot.compose import Connection
-from chatrobot.core.events import Event
+from chatrobot.core.events import Event, Rehearsed, Started
+from chatrobot.core.geometry import Pose
 from chatrobot.mcp_server.http import Guard
 from chatrobot.mcp_server.robot import AgentRobot
 from chatrobot.mcp_server.server import build_server
@@ -105,3 +106,15 @@ def test_a_host_is_ours_or_is_not(names: tuple[str, ...], host: str, is_let_in: 
 
 def test_events_are_passed_over_while_nobody_listens() -> None:
     AgentRobot(nobody)._hear(Event(0))
+
+
+def test_a_yes_that_comes_before_its_question_is_noted_leaves_nothing_waiting() -> None:
+    robot = AgentRobot(nobody)
+    asked = Rehearsed(7, True, 3.6, 1.0, Pose(1.0, 0.0, 0.0), needs_approval=True)
+    robot._hear(asked)
+    robot._hear(Started(7))
+    robot.wait_for_yes(7)
+    assert robot.waiting_turn is None
+    robot._hear(asked)  # it was paused, and is gone on with
+    robot.wait_for_yes(7)
+    assert robot.waiting_turn == 7

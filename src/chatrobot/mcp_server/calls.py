@@ -224,7 +224,8 @@ class Calls:
             course.paused, course.state, self._robot.paused_turn = event, "paused", event.turn
         elif isinstance(event, Rehearsed) and event.needs_approval and not course.rehearse_only:
             if self._robot.approval_address():
-                course.state, self._robot.waiting_turn = "waiting", course.turn
+                course.state = "waiting"
+                self._robot.wait_for_yes(course.turn)
             else:
                 course.lacks_person = True
                 session.approve(course.turn, yes=False)

@@ -9,7 +9,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 
 from chatrobot.compose import Connection
 from chatrobot.core.errors import ChatRobotError, LinkError
-from chatrobot.core.events import Event, Finished, Started
+from chatrobot.core.events import Event, Finished, Rehearsed, Started
 from chatrobot.core.process import wake_as_others_do
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.session import Session
@@ -92,6 +92,8 @@ class AgentRobot:
         """Steps with each stop and each instruction that was not done: what was asked for before it is not begun."""
         self.waiting_turn: int | None = None
         """The turn that waits for a person's yes, without a call that waits for it."""
+        self._begun_turn: int | None = None
+        """The turn that began or ended last, since it was rehearsed: a yes to it has come."""
         self.paused_turn: int | None = None
         """The turn whose plan is kept by a pause, without a call that waits for it."""
         self.connection: Connection | None = None
@@ -160,6 +162,12 @@ class AgentRobot:
         """An emergency stop is set, as far as is known here."""
         return self.record.emergency is not None or self._is_latched()
 
+    def wait_for_yes(self, turn: int) -> None:
+        """Have that turn wait for a person's yes, which may have come already: the pumping thread hears of it first."""
+        self.waiting_turn = turn
+        if self._begun_turn == turn:
+            self.waiting_turn = None
+
     def stop(self, why: str) -> None:
         """Stop the robot, and begin nothing that was asked for before. Waits for nothing."""
         self.setbacks += 1
@@ -208,7 +216,10 @@ class AgentRobot:
     def _hear(self, event: Event) -> None:
         """On the pumping thread."""
         self.record.hear(event, self.language)
-        if isinstance(event, (Started, Finished)):
+        if isinstance(event, Rehearsed):  # what was paused is asked about once more
+            self._begun_turn = None
+        elif isinstance(event, (Started, Finished)):
+            self._begun_turn = event.turn
             self.waiting_turn = None if event.turn == self.waiting_turn else self.waiting_turn
             self.paused_turn = None if event.turn == self.paused_turn else self.paused_turn
         self._tell(event)
