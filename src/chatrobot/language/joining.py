@@ -48,8 +48,8 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
         return True  # `go to the kitchen and back`: to a place, then another way
     if _are_two_orders(last, first, joined):
         return True
-    if joined == "and" and last.verb and last.verb == first.verb and last.sided and not last.has_extent:
-        return not first.q and (last.direction, last.rot) == (first.direction, first.rot)
+    if joined == "and" and _says_the_same_turn(last, first):
+        return True
     sized = first.direction or first.rot or {"length", "time"} & set(first.q)
     aside = first.verb in ("shift", "slide") and not sized
     if aside and joined == "and" and last.moves and last.direction not in SIDES and first.verb != last.verb:
@@ -69,14 +69,18 @@ def _are_two(last: Frame, first: Frame, joined: str) -> bool:
     return bool("all" in last.flags or again)
 
 
+def _says_the_same_turn(last: Frame, first: Frame) -> bool:
+    """`Turn left and turn left`: twice, and not the side told once more."""
+    alike = (last.verb, last.direction, last.rot) == (first.verb, first.direction, first.rot)
+    return bool(last.verb) and last.sided and alike and not (last.has_extent or first.q)
+
+
 def _are_two_orders(last: Frame, first: Frame, joined: str) -> bool:
     """`Spin twice and draw a circle`, `curve left and drive 1 m`, `go home, spin around`: each with its own verb."""
     kinds = {_kind(last), _kind(first)}
     if joined not in ("and", "weak", "strong") or "" in kinds or len(kinds) == 1:
         return False
-    if any(
-        _is_by_the_way(frame) or (frame.roles and not frame.shape) for frame in (last, first) if frame.texts
-    ):
+    if any(_is_by_the_way(frame) or (frame.roles and not frame.shape) for frame in (last, first)):
         return False
     if "shape" in kinds and (_is_laps(last) or _is_laps(first)):
         return False  # `a circle, go round twice`
