@@ -12,6 +12,9 @@ from tests.console.terminal import Terminal, console
 pytestmark = pytest.mark.realtime
 
 STANDING, MOVING = "standing · ", "moving  "
+EDITING = (
+    r"(?s)Edit it\..*plan› drive 0.3 m"  # while the hint is printed above the prompt, nobody hears a key
+)
 PLAN, DONE, STOPPED = "plan  ", "✓", "■"
 
 
@@ -269,7 +272,7 @@ def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
         chat.enter("forward 0.3 m")
         chat.wait_for("Do it?", times=2)
         chat.enter("e")
-        chat.wait_for("plan› drive 0.3 m")
+        chat.wait_for(EDITING)
         chat.type("\x15turn left 20 deg\x1b\r")
         chat.wait_for("Do it?", times=3)
         chat.enter("y")
@@ -278,7 +281,7 @@ def test_a_plan_can_be_approved_refused_and_edited(tmp_path):
         chat.enter("forward 0.3 m")
         chat.wait_for("Do it?")
         chat.enter("e")
-        chat.wait_for("plan› drive 0.3 m")
+        chat.wait_for(EDITING)
         chat.type("\x15fly 3 m\x1b\r")
         chat.wait_for(r"version before it stays: .*fly")
         chat.wait_for("Do it?", times=2)

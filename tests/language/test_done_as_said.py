@@ -13,6 +13,7 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        (("draw a square right here",), _SQUARE),
         (("前进两米。", "前进两米，搞定。", "左转。"), "turn left 90 deg"),
         (("drive a metre and 20 then turn left one eighth of a circle",), "drive 1.2 m; turn left 45 deg"),
         (

@@ -7,6 +7,9 @@ import pytest
 from tests.language.dialogue_runner import conversation
 
 ALONE = [
+    ("park here",),
+    ("draw a line here",),
+    ("draw a square and turn 30",),
     ("move 2 squares forward",),
     ("box ahead",),
     ("big box on the right",),
@@ -236,6 +239,8 @@ ALONE = [
     ("drive zigzag for 2 m",),
 ]
 AFTER_OTHERS = [
+    ("call this base", "go 1 m", "reverse from base"),
+    ("call this base", "go 1 m", "get out of base"),
     (
         "remember this as kitchen",
         "go 1 m",

@@ -100,10 +100,14 @@ def _kind(frame: Frame) -> str:
     if frame.shape or leads:
         return "shape" if frame.shape else leads if frame.verb else ""
     if frame.verb in TURN:
-        return "turn" if frame.sided or frame.has_extent or "times" in frame.q else ""
+        return "turn" if frame.sided or frame.has_extent or frame.q.keys() & {"times", "number"} else ""
     if frame.verb in ("curve", "uturn"):
         return frame.verb
-    return frame.verb if frame.verb in GO and (frame.direction or frame.has_extent) else ""
+    return (
+        frame.verb
+        if frame.verb in GO and (frame.direction or frame.has_extent or "number" in frame.q)
+        else ""
+    )
 
 
 def _tells_pace(frame: Frame) -> bool:

@@ -134,7 +134,7 @@ def _is_beside(head: Frame, frame: Frame) -> bool:
         return False  # a measure that was said before the shape
     if head.shape in _DRAWN_ON or not frame.verb or _EACH & frame.flags or (frame.roles and not frame.shape):
         return False
-    told = bool({"length", "angle", "time"} & set(frame.q)) or frame.verb == "slide"
+    told = bool({"length", "angle", "time", "number"} & set(frame.q)) or frame.verb == "slide"
     if frame.joined in ("and", "then", "strong"):
         goes_round = frame.verb in GO and bool(frame.rot)  # `…, go anticlockwise`: how it is drawn
         sided = frame.sided and not goes_round
