@@ -388,6 +388,28 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("not only turn left but also drive 1 m",), "turn left 90 deg; drive 1 m"),
         (("turn right, but a bit faster",), "turn right 90 deg at 1.02 rad/s"),
         (("inch forward",), "drive 0.25 m"),
+        (("drive 1 m. Left. 1 m. Right.",), "drive 1 m; turn left 90 deg; drive 1 m; turn right 90 deg"),
+        (
+            ("draw a circle right and then left",),
+            "arc right 360 deg radius 0.5 m; arc left 360 deg radius 0.5 m",
+        ),
+        (
+            ("draw a big circle, then turn left, then draw a small circle",),
+            "arc left 360 deg radius 1 m; turn left 90 deg; arc left 360 deg radius 0.25 m",
+        ),
+        (("drive 1 m, but draw a circle first",), "arc left 360 deg radius 0.5 m; drive 1 m"),
+        (("turn left and before driving 1 m, wait",), "turn left 90 deg; wait 1 s; drive 1 m"),
+        (("draw a circle before driving 1 m",), "arc left 360 deg radius 0.5 m; drive 1 m"),
+        (
+            ("start by driving 1 m, then turn left and finish by drawing a circle",),
+            "drive 1 m; turn left 90 deg; arc left 360 deg radius 0.5 m",
+        ),
+        (("drive 1 m, slow down, drive 1 m",), "drive 1 m; drive 1 m at 0.15 m/s"),
+        (
+            ("bear left, right, left",),
+            "arc left 90 deg radius 0.5 m; arc right 90 deg radius 0.5 m; arc left 90 deg radius 0.5 m",
+        ),
+        (("take a small step left",), "drive 0.25 m left"),
     ],
 )
 def test_the_last_turn_is_done(turns: tuple[str, ...], plan: str) -> None:

@@ -26,7 +26,8 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return list(atoms)
     word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
     before = [a for a in head if a.kind not in ("filler", "glue", "sep")]
-    if before[1:] and (before[-1].kind, before[-1].value) == ("conn", "then"):
+    goes_on = (before[-1].kind, before[-1].value) if before[1:] else ("", "")
+    if goes_on == ("conn", "then") or (goes_on[0] == "conn" and _leads_to_order(tail)):
         return [*head, *in_order(atoms[at:])]  # `turn right and then, after waiting 3 s, go 1 m`
     leads = not any(a.kind in _CONTENT for a in head)
     if not leads and word.value in ("after", "before") and all(a.kind in _NOTHING for a in tail):
@@ -102,6 +103,14 @@ def _second_order(tail: list[Atom], said_you: bool) -> int | None:
     said = any(a.kind in ("q", "place") for a in tail[:second])
     said |= not said_you and any(a.kind in ("dir", "rot") for a in tail[:second])
     return second if said else None
+
+
+def _leads_to_order(tail: list[Atom]) -> bool:
+    """`Before driving 2 m, wait`, as a part of its own: `turn left, and before …`."""
+    begins = [a for a in tail if a.kind not in ("filler", "glue")][:1]
+    comma = next((i for i, a in enumerate(tail) if (a.kind, a.value) == ("sep", "weak")), len(tail))
+    told = (any(a.kind in _CONTENT for a in part) for part in (tail[:comma], tail[comma:]))
+    return bool(begins) and begins[0].kind == "verb" and _is_gerund(begins[0]) and all(told)
 
 
 def _is_gerund(atom: Atom) -> bool:
