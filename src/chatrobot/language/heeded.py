@@ -224,8 +224,10 @@ def _must_matter(atoms: Sequence[Atom], i: int) -> bool:
     if flag in _WAYS_OF_DOING:
         return not any(atom.value == flag for atom in others)
     drawn = any(atom.kind in ("shape", "role", "counter") or atom.value == "curve" for atom in others)
-    if flag == "all" and sum(atom.kind == "q" for atom in others) > 1:
-        return False
+    if flag == "all" and (
+        sum(atom.kind == "q" for atom in others) > 1 or {a.value for a in others} <= {"again", "extra"}
+    ):
+        return False  # 全部再来一次: which turns, dialogue.py asks
     if flag != "until" and any(atom.value == "total" for atom in others):
         return False
     if flag == "each" and is_kind(atoms, i + 1, "q", "times"):  # 前进一米后退一米各三次

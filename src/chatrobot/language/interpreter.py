@@ -52,7 +52,7 @@ from chatrobot.language.program_request import read_program_request
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
-from chatrobot.language.rephrase import in_full, rephrased, with_breaks
+from chatrobot.language.rephrase import in_full, in_full_after, rephrased, with_breaks
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
@@ -107,7 +107,10 @@ class OfflineInterpreter:
         return replace(meant, reply=naming_points(meant.reply, context)) if said != text else meant
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        said = with_told_apart(in_full(normalise(text), language), language)
+        whole, before = in_full(normalise(text), language), context.dialogue
+        if before.last_motion is not None and not (before.pending or before.offered or before.held):
+            whole = in_full_after(whole, language)
+        said = with_told_apart(whole, language)
         text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")

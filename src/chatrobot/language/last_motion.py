@@ -100,11 +100,14 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
         Unclear: `90 degrees` after `turn left`: so much more, or so much in all? `Clockwise` after `turn 180`?
     """
     last = _last_told(dialogue)
-    if len(frames) != 1 or last is None or last.plan is None or len(last.plan.steps) != 1:
+    if len(frames) != 1 or last is None or last.plan is None:
         return
     frame, step = frames[0], last.plan.steps[0]
     sizes = {"length", "angle", "turns"} & set(frame.q)
     if frame.verb or frame.flags or frame.roles or frame.place or frame.shape or len(frame.q) != len(sizes):
+        return
+    _check_no_size_of_shape(frame, sizes, last)
+    if len(last.plan.steps) != 1:
         return
     way = frame.direction or frame.rot
     said = {atom.value if atom.kind == "q" else atom.kind for atom in _atoms(last.text)}
@@ -114,6 +117,23 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     told_rad = step.angle_rad if isinstance(step, Turn) and said & {*EXTENTS, "number"} else None
     other_open = not sizes and way in SIDES and told_rad not in (None, math.pi / 2)
     if (size_open and "number" not in said) or (side_open and "uturn" not in said) or other_open:
+        raise Unclear("unclear_motion", frame.text)
+
+
+def _check_no_size_of_shape(frame: Frame, sizes: set[str], last: TurnRecord) -> None:
+    """A lone length after `draw a square`, or 两圈 after a circle, may be its size, or its laps.
+
+    Raises:
+        Unclear: for such an amount.
+    """
+    said = {atom.value for atom in _atoms(last.text) if atom.kind == "q"}
+    told = bool(said & set(EXTENTS)) and "turns" not in sizes
+    if (
+        shapes_said(last.text)
+        and sizes & {"length", "turns"}
+        and not told
+        and not (frame.direction or frame.rot)
+    ):
         raise Unclear("unclear_motion", frame.text)
 
 

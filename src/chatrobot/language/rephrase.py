@@ -136,6 +136,13 @@ def in_full(text: str, language: str) -> str:
     return pattern.sub(lambda found: written[found[0]], text)
 
 
+def in_full_after(text: str, language: str) -> str:
+    """`text` as `in_full` reads it where something was done before it: 走满三米 is what is missing to them."""
+    for rule in _rules(language, "after"):
+        text = rule.applied(text)
+    return text
+
+
 def _spelled_out(text: str, language: str) -> str:
     text = _of_wishes(text, language)
     text = without_numbers(_without_heading(text, language))
