@@ -15,8 +15,8 @@ from chatrobot.language.last_motion import steps_of
 from chatrobot.language.leading import pose_after
 from chatrobot.language.manner import Pace
 from chatrobot.language.unclear import Unclear
-from chatrobot.language.undo import FAR_RAD, NEAR_M
-from chatrobot.plan.steps import Drive, Go, Step, Turn, Wait
+from chatrobot.language.undo import FAR_RAD, NEAR_M, PACES
+from chatrobot.plan.steps import Arc, Drive, Go, Step, Turn, Wait
 
 _NEAR_SHARE = 0.05
 """A way that is told in full may miss the start by so much of it."""
@@ -37,22 +37,24 @@ def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     return [replace(bit, direction_rad=DIRECTIONS[whole.direction])] if isinstance(bit, Drive) else None
 
 
-def driven_back(whole: Frame, context: Context) -> list[Step] | None:
-    """`And back`, after one drive straight ahead: as far as that."""
+def driven_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
+    """`And back`, after one drive straight ahead, or to a place: as far as that, or where it came from."""
     last = context.dialogue.last_motion
     [step] = (
         last.plan.steps
         if last is not None and last.plan is not None and len(last.plan.steps) == 1
         else [None]
     )
-    bare = whole.direction == "back" and not (
-        whole.q or whole.flags or whole.pace or whole.rot or whole.shape
-    )
+    bare = whole.direction == "back" and not (set(whole.q) - PACES or whole.flags or whole.rot or whole.shape)
     if context.dialogue.usual.distance_m is not None:
         return None  # a person set how far that is
-    if not bare or whole.verb not in ("", *GO) or not isinstance(step, Drive) or step.until is not None:
+    if not bare or whole.verb not in ("", *GO):
         return None
-    return inverse([step]) if step.direction_rad == 0.0 and step.distance_m is not None else None
+    if isinstance(step, Go) and last is not None:
+        return [replace(Go.to_pose(last.start_pose), yaw_rad=None, speed_mps=pace.speed(whole))]
+    ahead = isinstance(step, Drive) and step.direction_rad == 0.0 and step.until is None and step.distance_m
+    is_way = ahead or (isinstance(step, Arc) and not step.backward)
+    return inverse([step], pace.speed(whole)) if step is not None and is_way else None
 
 
 def only_turned(context: Context) -> bool:

@@ -300,6 +300,8 @@ def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:
         bit_m = min(pace.distance_m / 2, step.distance_m or math.inf)  # no more than there was
         return dataclasses.replace(step, distance_m=bit_m, duration_s=None)
     if len(steps) == 1 and isinstance(step, Turn):
-        bit_rad = min(pace.turn_rad / 2, step.angle_rad or math.inf)
+        bit_rad = pace.turn_rad / 2
+        if step.angle_rad is not None and step.angle_rad < bit_rad:  # `a bit more` is less than there was
+            bit_rad = step.angle_rad / 2 if "bit" in whole.flags else step.angle_rad
         return dataclasses.replace(step, angle_rad=bit_rad, duration_s=None)
     raise Unclear("nothing_before", whole.text)

@@ -167,7 +167,7 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
         own = frames_of(atoms[:-2])
         if any(frame.moves for frame in own):
-            if is_correction(dialogue.last_motion):
+            if is_correction(dialogue.last_motion) or len(own) > 1:
                 raise Unclear("unclear_motion", atoms[-1].text)  # what was done, or what was meant?
             return [*reading.steps_of_their_own(own), *before]
     if (waited := _waited(atoms)) and not is_correction(dialogue.last_motion):
@@ -192,10 +192,15 @@ def _waited(atoms: list[Atom]) -> list[Frame]:
     """What is waited before the motion before is done once more: `wait 3 s and do it again`; nothing where none is."""
     at = next((i for i, atom in enumerate(atoms) if atom.value == "again"), 0)
     after = [atom for atom in atoms[at:] if atom.value not in ("again", "extra") and atom.kind not in SILENT]
-    if after or {atom.value for atom in atoms[:at] if atom.kind == "q"} != {"time"}:
+    told = {atom.value for atom in atoms[:at] if atom.kind == "q" or atom.value == "bit"}
+    if after or told not in ({"time"}, {"bit"}):
         return []
     own = frames_of(atoms[:at])
-    return own if all(frame.verb in STILL and "time" in frame.q for frame in own) else []
+    return (
+        own
+        if all(frame.verb in STILL and {"time", "bit"} & {*frame.q, *frame.flags} for frame in own)
+        else []
+    )
 
 
 def _after_again(atoms: list[Atom]) -> list[Atom]:

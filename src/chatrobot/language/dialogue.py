@@ -59,7 +59,7 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     more = (
         back_as_far_in_all(whole, context, pace)
         or slid_back(whole, context, pace)
-        or driven_back(whole, context)
+        or driven_back(whole, context, pace)
     )
     more = more or _more_of_before(whole, context, pace)
     if more is not None:
@@ -220,6 +220,8 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
         return all_taken_back(context, profile)
     if whole.verb == "undo":
         last, named = context.dialogue.last_motion, [each for each in frames[1:] if each.verb in GO]
+        if whole.shape and last is not None and whole.shape not in shapes_said(last.text):
+            raise Unclear("nothing_before", whole.text)  # `undo the square`, after a circle
         if named and last is not None and len(steps_of(last)) > 1:
             raise Unclear(
                 "unclear_motion", f"{whole.text} {named[0].text}"

@@ -129,6 +129,8 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if "leave_out" in flags:
         return _without(steps, edit)
     if "reversed" in flags:
+        if len(steps) == 1:
+            raise Unclear("nothing_before")  # the order of what?
         return None if flags - {"again", "reversed"} or edit.amounts or edit.way else steps[::-1]
     if "swapped" in flags:
         if "both" in flags and len(steps) > 2:

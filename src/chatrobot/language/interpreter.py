@@ -19,6 +19,7 @@ from chatrobot.language.acts import (
     without,
     without_requests,
 )
+from chatrobot.language.after_motion import as_meant_after
 from chatrobot.language.bare_orders import is_bare_order
 from chatrobot.language.beside import (
     any_may_bear,
@@ -65,26 +66,12 @@ from chatrobot.language.starting import (
 )
 from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.tutorial_form import read_twists
-from chatrobot.language.unclear import Unclear
+from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
 from chatrobot.language.usual import read_limit
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.robots.profile import RobotProfile
-
-_OF_AN_ORDER = frozenset(
-    {
-        "which_side",
-        "which_way",
-        "which_size",
-        "which_place",
-        "how_far",
-        "how_long",
-        "no_unit",
-        "unclear_motion",
-    }
-)
-"""What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
 
 
 class OfflineInterpreter:
@@ -110,7 +97,10 @@ class OfflineInterpreter:
         whole, before = in_full(normalise(text), language), context.dialogue
         if before.last_motion is not None and not (before.pending or before.offered or before.held):
             whole = in_full_after(whole, language)
-        said = with_told_apart(whole, language)
+        try:
+            said, context = as_meant_after(with_told_apart(whole, language), language, context)
+        except Unclear as problem:
+            return asked_back(problem, language)
         text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
@@ -245,7 +235,7 @@ class OfflineInterpreter:
                 bears |= is_bare_order(meant.plan, kept, talk, pace)
                 return (proposed(meant, language) or meant) if bears else meant
             except Unclear as problem:
-                missing = problem if problem.code in _OF_AN_ORDER and apart else None
+                missing = problem if problem.code in OF_AN_ORDER and apart else None
         try:
             meant = self._interpreted(text, language, context)
         except Unclear as problem:
@@ -261,7 +251,7 @@ class OfflineInterpreter:
             asks = problem.code in ("only_forbidden", "no_lasting_rule") and any(
                 read.clause.asks for read in reads
             )
-            if (asks or problem.code in _OF_AN_ORDER) and order_log_odds(reads) < MAYBE_ORDER:
+            if (asks or problem.code in OF_AN_ORDER) and order_log_odds(reads) < MAYBE_ORDER:
                 raise Unclear("nothing_to_do") from None
             raise
         if meant.outcome != "plan" or read_twists(plain):

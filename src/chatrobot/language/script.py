@@ -153,6 +153,8 @@ def _without_times(frame: Frame) -> Frame:
 def _known(frame: Frame, script: Script) -> list[Step]:
     """The steps of a word that was defined, or the way to a place that was named; else none."""
     if frame.verb == "defined":
+        if "number" in frame.q:
+            raise Unclear("unclear_motion", frame.text)  # `half a hop`
         steps = list(script.memory.words[frame.words])
         return changed(steps, _without_times(frame), script.pace) if _says_how(frame) else steps
     if not frame.place:

@@ -2,6 +2,20 @@
 
 from __future__ import annotations
 
+OF_AN_ORDER = frozenset(
+    {
+        "which_side",
+        "which_way",
+        "which_size",
+        "which_place",
+        "how_far",
+        "how_long",
+        "no_unit",
+        "unclear_motion",
+    }
+)
+"""What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
+
 
 class Unclear(Exception):  # noqa: N818 - not an error: the interpreter turns it into a question
     """Raised inside `language` only; `interpret` always turns it into an `unclear` or `refused` answer.

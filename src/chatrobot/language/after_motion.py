@@ -1,0 +1,222 @@
+"""What a text means by what was done before: `draw it again` after a turn, `keep going left` after a slide.
+
+The forms are `data/<code>/after_motion.toml`: `after` has what is read otherwise, or is asked about, after such
+a motion; `means` what is said of one kind of motion, so that it is read as if nothing else had been done since.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import cache
+
+from chatrobot.language.context import Context, Dialogue
+from chatrobot.language.data_files import load_table
+from chatrobot.language.forms import read_definition
+from chatrobot.language.inverse import is_sideways
+from chatrobot.language.last_motion import atoms_said, laps, shapes_said
+from chatrobot.language.ledger import TurnRecord
+from chatrobot.language.normalise import normalise
+from chatrobot.language.questions import is_question
+from chatrobot.language.rephrase import in_full
+from chatrobot.language.rules import Rule, rules
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
+
+_SHOWN = 60
+_PACES = frozenset({"speed", "time", "rate"})
+_SIZES = frozenset({"length", "angle", "turns", "number", "time", "count", "speed"})
+
+
+def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Context]:
+    """A normalised text in words that say what it means after what was done, and the turns that it speaks of.
+
+    Raises:
+        Unclear: it may mean several things after that.
+    """
+    dialogue = context.dialogue
+    if dialogue.pending and _was_asked(dialogue, language):
+        context = replace(context, dialogue=(dialogue := replace(dialogue, pending="")))
+    if dialogue.held is not None or dialogue.offered is not None or not dialogue.turns:
+        return plain, context
+    for name, is_so in _AFTER.items():
+        for rule in _rules(language, "after", name):
+            if rule.is_in(plain) and is_so(dialogue):
+                if not rule.said:
+                    raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
+                plain = rule.applied(plain)
+    for kind in _MEANT:
+        if any(rule.is_in(plain) for rule in _rules(language, "means", kind)):
+            return plain, replace(context, dialogue=_of_kind(kind, plain, dialogue))
+    return plain, context
+
+
+def _was_asked(dialogue: Dialogue, language: str) -> bool:
+    """Whether what is open was asked about here: it lacks nothing that an answer could add."""
+    before = replace(dialogue, turns=dialogue.turns[:-1], pending="")
+    try:
+        as_meant_after(in_full(normalise(dialogue.pending), language), language, Context(before))
+    except Unclear:
+        return True
+    return False
+
+
+def _of_kind(kind: str, plain: str, dialogue: Dialogue) -> Dialogue:
+    """The dialogue up to the last motion of that kind, and of that nothing but what is of it.
+
+    Raises:
+        Unclear: there is none before the last motion, or it was one of several, or something was undone since.
+    """
+    last = dialogue.last_motion
+    if last is None or last.walk is not None or last.plan is None:
+        return dialogue
+    for at in reversed(range(len(dialogue.turns))):
+        turn = dialogue.turns[at]
+        steps = turn.plan.steps if turn.plan is not None else ()
+        found = _MEANT[kind](turn, plain)
+        if not found:
+            continue
+        if turn is last and len(found) > 1:
+            return dialogue
+        if turn.walk is not None or (len(found) > 1 and len(found) < len(steps)):
+            break
+        part = turn if len(found) == len(steps) else replace(turn, plan=Plan(found), executed=Plan(found))
+        return dialogue if part is last else replace(dialogue, turns=(*dialogue.turns[:at], part), pending="")
+    if kind == "far" and not any(_drives(turn, plain) for turn in dialogue.turns):
+        return dialogue
+    raise Unclear("nothing_before", plain[:_SHOWN])
+
+
+def _drives(turn: TurnRecord, _plain: str) -> tuple[Step, ...]:
+    return tuple(step for step in _steps(turn) if isinstance(step, Drive))
+
+
+def _to_a_side(turn: TurnRecord, _plain: str) -> tuple[Step, ...]:
+    return tuple(step for step in _steps(turn) if isinstance(step, (Turn, Arc)) or is_sideways(step))
+
+
+def _figure(turn: TurnRecord, plain: str) -> tuple[Step, ...]:
+    """The whole of what drew a figure: that one, where the text names one."""
+    named = {atom.value for atom in atoms_said(plain) if atom.kind == "shape"}
+    drawn = shapes_said(turn.text)
+    fits = drawn & named if named else drawn or laps(_steps(turn), 1) is not None
+    return _steps(turn) if fits else ()
+
+
+_MEANT: Mapping[str, Callable[[TurnRecord, str], tuple[Step, ...]]] = {
+    "drive": _drives,
+    "far": _drives,
+    "side": _to_a_side,
+    "figure": _figure,
+}
+
+
+def _steps(turn: TurnRecord | None) -> tuple[Step, ...]:
+    return turn.plan.steps if turn is not None and turn.plan is not None else ()
+
+
+def _only(kind: type[Step] | tuple[type[Step], ...]) -> Callable[[Dialogue], bool]:
+    def is_so(dialogue: Dialogue) -> bool:
+        steps = [step for step in _steps(dialogue.last_motion) if not isinstance(step, Wait)]
+        return bool(steps) and all(isinstance(step, kind) for step in steps)
+
+    return is_so
+
+
+def _is_about(dialogue: Dialogue) -> bool:
+    """Whether it turned about last, and what it drove before lies ahead now."""
+    step = next(iter(reversed(_steps(dialogue.last_motion))), None)
+    about = isinstance(step, Turn) and abs((step.angle_rad or 0.0) - math.pi) < 1e-3
+    return about and any(isinstance(one, Drive) for turn in dialogue.turns for one in _steps(turn))
+
+
+def _is_slide(dialogue: Dialogue) -> bool:
+    return [*map(is_sideways, _steps(dialogue.last_motion))] == [True]
+
+
+def _is_aslant(dialogue: Dialogue) -> bool:
+    steps = _steps(dialogue.last_motion)
+    [step] = steps if len(steps) == 1 else [None]
+    return isinstance(step, Drive) and min(map(abs, _parts(step))) > 1e-6
+
+
+def _parts(step: Drive) -> tuple[float, float]:
+    return math.cos(step.direction_rad), math.sin(step.direction_rad)
+
+
+def _turns_last(dialogue: Dialogue) -> bool:
+    return isinstance(next(iter(reversed(_steps(dialogue.last_motion))), None), (Turn, Arc))
+
+
+def _draws(dialogue: Dialogue) -> bool:
+    last = dialogue.last_motion
+    return last is not None and bool(shapes_said(last.text) or laps(_steps(last), 1))
+
+
+def _said(kinds: frozenset[str]) -> Callable[[Dialogue], bool]:
+    """Whether the last motion drove, and was told with one of these amounts."""
+
+    def is_so(dialogue: Dialogue) -> bool:
+        last = dialogue.last_motion
+        return last is not None and any(atom.value in kinds for atom in atoms_said(last.text))
+
+    return is_so
+
+
+def _is_told_since(dialogue: Dialogue) -> bool:
+    """Whether an amount was told or asked for since the last motion: `half of that` may be half of it."""
+    last = dialogue.turns[-1]
+    amounts = any(atom.kind == "q" and atom.value in _SIZES for atom in atoms_said(last.text))
+    return last.plan is None and (amounts or is_question(normalise(last.text), "en"))
+
+
+def _is_taught(dialogue: Dialogue) -> bool:
+    return (
+        dialogue.turns[-1].plan is None
+        and read_definition(normalise(dialogue.turns[-1].text), "en") is not None
+    )
+
+
+def _is_several(dialogue: Dialogue) -> bool:
+    return sum(turn.plan is not None for turn in dialogue.turns) > 1
+
+
+def _has_moved(dialogue: Dialogue) -> bool:
+    return dialogue.last_motion is not None
+
+
+def _not_straight(dialogue: Dialogue) -> bool:
+    """Whether the last motion was more, or something else, than one drive."""
+    steps = _steps(dialogue.last_motion)
+    return bool(steps) and (len(steps) > 1 or not isinstance(steps[0], Drive))
+
+
+_AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
+    "about": _is_about,
+    "drive": _only(Drive),
+    "place": _only(Go),
+    "turn": _only(Turn),
+    "turning": _turns_last,
+    "slide": _is_slide,
+    "aslant": _is_aslant,
+    "figure": _draws,
+    "clock": _said(frozenset({"clock"})),
+    "paced": lambda dialogue: _only((Drive, Arc))(dialogue) and _said(_PACES)(dialogue),
+    "told": _is_told_since,
+    "taught": _is_taught,
+    "several": lambda dialogue: _is_several(dialogue) and not _not_straight(dialogue),
+    "not_straight": _not_straight,
+    "just": lambda dialogue: dialogue.turns[-1].plan is not None,
+    "moved": _has_moved,
+}
+
+
+@cache
+def _rules(language: str, table: str, name: str) -> tuple[Rule, ...]:
+    listed = load_table(language, "after_motion").get(table, {}).get(name, ())
+    pairs: Iterator[tuple[str, str]] = (
+        (one, "") if isinstance(one, str) else (one[0], one[1]) for one in listed
+    )
+    parts = load_table(language, "rephrase").get("parts", {})
+    return rules(f"after_motion_{language}_{table}_{name}", list(pairs), parts)
