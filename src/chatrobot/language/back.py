@@ -9,6 +9,7 @@ from dataclasses import replace
 from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.changes import a_bit_of
 from chatrobot.language.context import Context
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.inverse import inverse, is_sideways
 from chatrobot.language.last_motion import steps_of
@@ -23,8 +24,18 @@ _NEAR_SHARE = 0.05
 
 
 def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
-    """`Then slide back`, `a bit further left`, after a slide: no turn."""
+    """`Then slide back`, `a bit further left`, after a slide: no turn.
+
+    Raises:
+        Unclear: `a bit back`, after a turn, and `left again`, after a drive ahead: is it to drive or to turn?
+    """
     last = context.dialogue.last_motion
+    step = last.plan.steps[-1] if last is not None and last.plan is not None else None
+    if (whole.verb, whole.rot, whole.pace, whole.q) == ("", "", "", {}) and (
+        (isinstance(step, Turn) and (whole.direction, whole.flags) == ("back", {"bit"}))
+        or (isinstance(step, Drive) and not is_sideways(step) and _says_again_to_a_side(whole))
+    ):
+        raise Unclear("which_way", whole.text)
     slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
     if not slid or whole.q:
         return None
@@ -35,6 +46,12 @@ def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
         return None
     bit = a_bit_of(steps_of(last), whole, pace)
     return [replace(bit, direction_rad=DIRECTIONS[whole.direction])] if isinstance(bit, Drive) else None
+
+
+def _says_again_to_a_side(whole: Frame) -> bool:
+    """`Left again`, not `the same to the left`."""
+    words = {word for code in LANGUAGES for word in load_table(code, "selections").get("once_again", ())}
+    return whole.direction in SIDES and whole.flags == {"again"} and bool(words & {*whole.texts})
 
 
 def driven_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:

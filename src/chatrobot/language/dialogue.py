@@ -222,10 +222,9 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
         last, named = context.dialogue.last_motion, [each for each in frames[1:] if each.verb in GO]
         if whole.shape and last is not None and whole.shape not in shapes_said(last.text):
             raise Unclear("nothing_before", whole.text)  # `undo the square`, after a circle
-        if named and last is not None and len(steps_of(last)) > 1:
-            raise Unclear(
-                "unclear_motion", f"{whole.text} {named[0].text}"
-            )  # `undo the drive`, of several steps
+        if named and last is not None and (len(steps_of(last)) > 1 or isinstance(steps_of(last)[0], Turn)):
+            # `undo the drive`, of several steps, or of a turn
+            raise Unclear("unclear_motion", f"{whole.text} {named[0].text}")
         return undone(whole, context, profile, turning=any(frame.verb == "turn" for frame in frames[1:]))
     if {"redo", "restore"} & whole.flags:
         again = redone(context, profile)

@@ -17,7 +17,7 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.earlier_poses import names_earlier_pose, to_earlier_pose
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.frames import DIRECTIONS, SIDES, TURN
-from chatrobot.language.last_motion import laps, motion_meant, shapes_said
+from chatrobot.language.last_motion import atoms_said, laps, motion_meant, shapes_said
 from chatrobot.language.measures import whole_number
 from chatrobot.language.rephrase import plain_text
 from chatrobot.language.resizing import resized
@@ -26,7 +26,7 @@ from chatrobot.language.step_kinds import is_of_kind, kind_named, places_of
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import once_of
-from chatrobot.plan.steps import Drive, Step, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _WITHOUT = ("without", "without_nth", "without_only")
 
@@ -251,6 +251,12 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
         if more is None:
             raise Unclear("which_size", plain[:60])
         return more
+    if said.get("named") == "":
+        whole = None if len(steps) == 1 and not isinstance(steps[0], Arc) else laps(steps, count)
+        if whole is not None:
+            return whole  # `two more`, after a square
+        if len(steps) == 1 and any("step" in (atom.value, atom.role) for atom in atoms_said(last.text)):
+            return steps * count
     return steps[:once] * count if once < len(steps) else None
 
 
