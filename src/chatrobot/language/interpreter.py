@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 from chatrobot import reflex
 from chatrobot.language import questions
@@ -35,7 +36,6 @@ from chatrobot.language.facing import without_compass
 from chatrobot.language.facts import with_known_counts
 from chatrobot.language.forms import read_definition
 from chatrobot.language.glossed import in_known_words, read_glossed
-from chatrobot.language.in_words import read_in_words
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.islands import of_islands
 from chatrobot.language.left_out import with_tails_parted
@@ -45,6 +45,7 @@ from chatrobot.language.misspelt import misspelt_place
 from chatrobot.language.names import names_in
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
+from chatrobot.language.one_by_one import one_by_one
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, with_spoken_place
 from chatrobot.language.pointing import beside_reference
@@ -228,10 +229,8 @@ class OfflineInterpreter:
                 # What a request for a program tells in full is its own reader's.
                 bears = any_may_bear(reads, [read for read in talk if read not in apart])
                 bears = bears and not read_program_request(rest)
-                kept, pace = (
-                    [read for read in reads if read not in talk],
-                    Reading(language, context, self._profile).pace,
-                )
+                kept = [read for read in reads if read not in talk]
+                pace = Reading(language, context, self._profile).pace
                 bears |= is_bare_order(meant.plan, kept, talk, pace)
                 return (proposed(meant, language) or meant) if bears else meant
             except Unclear as problem:
@@ -335,7 +334,9 @@ class OfflineInterpreter:
         courtesy = questions.courtesy_of(plain, language)
         if courtesy:
             return Interpretation("answered", say(language, f"answer_{courtesy}"), language, code=courtesy)
-        return read_in_words(plain, Reading(language, context, self._profile, facing_rad))
+        reading = Reading(language, context, self._profile, facing_rad)
+        read = partial(self._interpreted, language=language, context=context)
+        return one_by_one(normalise(text), plain, reading, read)
 
 
 def _moves(plan: Plan | None) -> list[Step]:
