@@ -453,6 +453,13 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("drive 1 m", "again in 2 seconds"), "wait 2 s; drive 1 m"),
         (("turn left 30", "a bit more"), "turn left 15 deg"),
         (("curve left", "go back"), "arc back left 90 deg radius 0.5 m"),
+        (("drive 1 m; before going home, wait 3 s",), "drive 1 m; wait 3 s; drive 1 m back"),
+        (("draw a circle once you've driven 1 m",), "drive 1 m; arc left 360 deg radius 0.5 m"),
+        (
+            ("turn right 30 degrees and before turning left twice, drive 1 m",),
+            "turn right 30 deg; drive 1 m; turn left 90 deg; turn left 90 deg",
+        ),
+        (("go 2 m, remember this place as desk, go back",), 'drive 2 m; remember "desk"; drive 2 m back'),
     ],
 )
 def test_the_last_turn_is_done(turns: tuple[str, ...], plan: str) -> None:

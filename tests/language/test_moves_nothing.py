@@ -310,6 +310,18 @@ ALONE = [
     ("turn left, back, right",),
     ("draw a line, turn left",),
     ("wiggle, drive 1 m",),
+    ("turn right, forward, back, left",),
+    ("drive 2 m with pauses",),
+    ("drive 2 m this evening",),
+    ("turn left 30 minutes",),
+    ("draw a tilted square",),
+    ("keep 1 m away",),
+    ("drive 1 m, honk, turn left",),
+    ("turn your back to me",),
+    ("drive 1 m, half speed, drive 1 m",),
+    ("turn left in a bit",),
+    ("draw circles",),
+    ("drive 1 m, a bit left",),
 ]
 AFTER_OTHERS = [
     ("call this base", "go 1 m", "reverse from base"),

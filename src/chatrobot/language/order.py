@@ -25,9 +25,9 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     if at is None:
         return list(atoms)
     word, head, tail = atoms[at], list(atoms[:at]), list(atoms[at + 1 :])
-    before = [a for a in head if a.kind not in ("filler", "glue", "sep")]
+    before = [a for a in head if a.kind not in ("filler", "glue") and (a.kind, a.value) != ("sep", "weak")]
     goes_on = (before[-1].kind, before[-1].value) if before[1:] else ("", "")
-    if goes_on == ("conn", "then") or (goes_on[0] == "conn" and _leads_to_order(tail)):
+    if goes_on == ("conn", "then") or (goes_on[0] in ("conn", "sep") and _leads_to_order(tail)):
         return [*head, *in_order(atoms[at:])]  # `turn right and then, after waiting 3 s, go 1 m`
     leads = not any(a.kind in _CONTENT for a in head)
     if not leads and word.value in ("after", "before") and all(a.kind in _NOTHING for a in tail):

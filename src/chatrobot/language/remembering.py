@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Callable
 
@@ -72,8 +73,22 @@ def read_named_here(plain: str, reading: Reading, read: Callable[[str], list[Ste
             )
         except Unclear:
             continue
-        return _placed([*before, Remember(name), *after], reading)
+        whole = plain[: found.start()].rstrip(" ,;") + plain[found.end() :]
+        return _placed([*before, Remember(name), *_going_on(before, after, whole, read)], reading)
     return None
+
+
+def _going_on(
+    before: list[Step], after: list[Step], whole: str, read: Callable[[str], list[Step]]
+) -> list[Step]:
+    """What is done behind the naming, read with what stands before it: `go 2 m, …, then go back`."""
+    if not before or not after:
+        return after
+    with contextlib.suppress(Unclear):
+        together = read(whole)
+        if together[: len(before)] == before and len(together) > len(before):
+            return together[len(before) :]
+    return after
 
 
 def _moving_steps(part: str, read: Callable[[str], list[Step]]) -> list[Step]:
