@@ -13,6 +13,10 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        (("drive 1 m back", "carry on"), "drive 0.5 m back"),
+        (("drive 1 m left", "keep going for 1 m"), "drive 1 m left"),
+        (("drive 1 m back", "turn left", "drive on 1 m"), "drive 1 m"),
+        (("drive 1 m", "go back and do it again"), "drive 1 m back; drive 1 m"),
         (("draw a square right here",), _SQUARE),
         (("前进两米。", "前进两米，搞定。", "左转。"), "turn left 90 deg"),
         (("drive a metre and 20 then turn left one eighth of a circle",), "drive 1.2 m; turn left 45 deg"),

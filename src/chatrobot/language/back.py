@@ -157,3 +157,27 @@ def check_leads_to_start(last: Frame, steps: Sequence[Step], context: Context) -
     near_m = NEAR_M + _NEAR_SHARE * last.q["length"].number
     if end is not None and min(map(end.distance_to, (pose, context.dialogue.start_pose))) > near_m:
         raise Unclear("contradiction", last.text)
+
+
+def goes_back_and_again(frames: Sequence[Frame]) -> bool:
+    """`Go back and do it again`: the way back first."""
+    if len(frames) != 2 or frames[1].flags != {"again"} or frames[1].moves or frames[1].q:
+        return False
+    back = frames[0]
+    return not (back.q.keys() - PACES or back.flags - {"to_start"}) and (
+        back.verb == "return" or (back.verb == "go" and back.direction == "back")
+    )
+
+
+def goes_to_start(whole: Frame) -> bool:
+    """Whether the whole of it is a way back to where it began."""
+    reverses = whole.direction == "back" or "backing" in whole.flags
+    paced = whole.q.keys() <= PACES if reverses else not whole.q
+    return (whole.verb == "return" or "to_start" in whole.flags) and paced and not whole.place
+
+
+def names_its_own(whole: Frame) -> bool:
+    """Whether a motion of its own comes before the way back: `1 m forward, then back to the start`, `return left`."""
+    if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
+        return True
+    return goes_to_start(whole) and whole.direction not in ("", "back")

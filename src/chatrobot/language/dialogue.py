@@ -8,6 +8,9 @@ from dataclasses import replace
 from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.back import (
     driven_back,
+    goes_back_and_again,
+    goes_to_start,
+    names_its_own,
     only_slid,
     only_turned,
     part_way_back,
@@ -48,13 +51,18 @@ def refer(frames: Sequence[Frame], context: Context, pace: Pace) -> list[Step] |
     check_answers_nothing(frames, context.dialogue)
     if context.dialogue.last_motion is not None:
         frames = _without_outcome(frames)
+        if goes_back_and_again(frames):
+            back = refer(frames[:1], context, pace)
+            if back is None:
+                raise Unclear("unclear_motion", " ".join(frame.text for frame in frames))
+            return [*back, *steps_of(context.dialogue.last_motion)]
     whole = _whole(frames)
     if whole is None:
         return None
     if "short_of" in whole.flags:
         return to_total(whole, context, pace)
     start = part_way_back(whole, context, pace) or _to_the_start(whole, frames, context, pace)
-    if start is not None or _names_its_own(whole):
+    if start is not None or names_its_own(whole):
         return start
     more = (
         back_as_far_in_all(whole, context, pace)
@@ -87,7 +95,7 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
         return _faced_as_before(whole, context, pace)
     if whole.verb == "face" and "to_start" in flags:
         raise Unclear("unclear_motion", whole.text)  # to drive there or to look there?
-    if not _goes_to_start(whole) or (whole.direction and whole.direction != "back"):
+    if not goes_to_start(whole) or (whole.direction and whole.direction != "back"):
         return None
     _check_not_counted(whole, frames)
     if {"bit", "halfway"} & flags and not is_chinese(whole.text):
@@ -96,19 +104,6 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
         return inverse(list(steps_of(context.dialogue.last_motion)), pace.speed(whole))
     go = Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))
     return straight_to_start(whole, context, pace) or [go]
-
-
-def _goes_to_start(whole: Frame) -> bool:
-    reverses = whole.direction == "back" or "backing" in whole.flags
-    paced = whole.q.keys() <= PACES if reverses else not whole.q
-    return (whole.verb == "return" or "to_start" in whole.flags) and paced and not whole.place
-
-
-def _names_its_own(whole: Frame) -> bool:
-    """Whether a motion of its own comes before the way back: `1 m forward, then back to the start`, `return left`."""
-    if whole.has_extent and {"original_heading", "to_start"} & whole.flags:
-        return True
-    return _goes_to_start(whole) and whole.direction not in ("", "back")
 
 
 def _faced_as_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
