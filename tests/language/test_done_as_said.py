@@ -471,6 +471,10 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
             ("turn right 30 degrees and before turning left twice, drive 1 m",),
             "turn right 30 deg; drive 1 m; turn left 90 deg; turn left 90 deg",
         ),
+        (
+            ("draw a square, then, after sliding left 50 cm, turn left",),
+            f"{_SQUARE}; drive 0.5 m left; turn left 90 deg",
+        ),
         (("go 2 m, remember this place as desk, go back",), 'drive 2 m; remember "desk"; drive 2 m back'),
     ],
 )

@@ -331,6 +331,7 @@ ALONE = [
     ("turn left in a bit",),
     ("draw circles",),
     ("drive 1 m, a bit left",),
+    ("draw a half circle, turn left, draw a half circle",),
 ]
 AFTER_OTHERS = [
     ("call this base", "go 1 m", "reverse from base"),

@@ -107,7 +107,7 @@ def _is_part(head: Frame, frame: Frame) -> bool:
     is_straight = head.shape.startswith(_STRAIGHT)
     if frame.shape and (is_straight or frame.shape not in ("half_circle", "quarter_circle", "circle")):
         return False
-    if _is_beside(head, frame) and not by_the_way:
+    if _is_beside(head, frame) and (not by_the_way or (frame.joined == "then" and frame.verb == "slide")):
         return False
     if head.shape in _TITLES and frame.has_extent and (frame.direction or frame.verb in GO):
         return True
