@@ -52,6 +52,11 @@ _PLACE = ("merk dir das als Küche", "fahr einen Meter vor")
         (("dreh dich nach links, dann wieder nach vorne",), "turn left 90 deg; face 0 deg from start"),
         (("fahr einen und einen halben Meter vor",), "drive 1.5 m"),
         (("fahr zwei Meter vor", "ups, zurück"), "drive 2 m back"),
+        (("kannst du hier wenden",), "turn left 180 deg"),
+        (("einen Meter vor, links, noch einen",), "drive 1 m; turn left 90 deg; drive 1 m"),
+        (("drei Meter und dann links und zwei Meter",), "drive 3 m; turn left 90 deg; drive 2 m"),
+        (("zwei Sekunden lang vor",), "drive 2 s"),
+        (("einen halben Meter vor und einen ganzen zurück",), "drive 0.5 m; drive 1 m back"),
     ],
 )
 def test_it_is_done_as_it_is_said(turns: tuple[str, ...], plan: str) -> None:
@@ -106,6 +111,11 @@ MOVES_NOTHING = [
     ("ein bisschen vor, viel zurück",),
     ("sprich rückwärts",),
     ("komme gleich zurück",),
+    ("komm mit",),
+    ("noch zwei Meter bis zur Tür",),
+    ("die Kinder fahren im Kreis",),
+    ("fahr bis zur Linie",),
+    ("stopp das Fahren",),
     ("links", "eins rechts"),
 ]
 
