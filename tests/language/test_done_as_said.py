@@ -476,6 +476,10 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
             f"{_SQUARE}; drive 0.5 m left; turn left 90 deg",
         ),
         (("go 2 m, remember this place as desk, go back",), 'drive 2 m; remember "desk"; drive 2 m back'),
+        (("turn left 90", "45 instead"), "turn right 45 deg"),
+        (("slide left 1 m", "right instead"), "drive 2 m right"),
+        (("drive 2 m", "turn left", "half the distance to the left"), "drive 1 m left"),
+        (("drive two tiles and turn left", "30 cm"), "drive 0.3 m; drive 0.3 m; turn left 90 deg"),
     ],
 )
 def test_the_last_turn_is_done(turns: tuple[str, ...], plan: str) -> None:

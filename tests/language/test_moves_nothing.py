@@ -493,6 +493,9 @@ AFTER_OTHERS = [
     ("drive 1 m", "home time"),
     ("turn right 30", "turn more"),
     ("drive 1 m", "almost back to the start"),
+    ("turn left", "oh, right"),
+    ("drive 2 m", "turn left", "turn left, then face the original direction"),
+    ("remember this place as red", "drive 1 m", "red car"),
 ]
 
 

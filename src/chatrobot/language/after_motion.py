@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
 
+from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.forms import read_definition
@@ -22,6 +23,7 @@ from chatrobot.language.questions import is_question
 from chatrobot.language.rephrase import in_full
 from chatrobot.language.rules import Rule, rules
 from chatrobot.language.unclear import Unclear
+from chatrobot.language.undo import FAR_RAD
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
 
 _SHOWN = 60
@@ -125,10 +127,11 @@ def _only(kind: type[Step] | tuple[type[Step], ...]) -> Callable[[Dialogue], boo
 
 
 def _is_about(dialogue: Dialogue) -> bool:
-    """Whether it turned about last, and what it drove before lies ahead now."""
-    step = next(iter(reversed(_steps(dialogue.last_motion))), None)
-    about = isinstance(step, Turn) and abs((step.angle_rad or 0.0) - math.pi) < 1e-3
-    return about and any(isinstance(one, Drive) for turn in dialogue.turns for one in _steps(turn))
+    """Whether it turned about after a drive, so that what it drove lies ahead now."""
+    done = [step for turn in dialogue.turns for step in _steps(turn) if not isinstance(step, Wait)]
+    drive, turn = done[-2:] if len(done) > 1 else (None, None)
+    about = isinstance(turn, Turn) and abs((turn.angle_rad or 0.0) - math.pi) < 1e-3
+    return about and isinstance(drive, Drive)
 
 
 def _is_slide(dialogue: Dialogue) -> bool:
@@ -186,6 +189,13 @@ def _has_moved(dialogue: Dialogue) -> bool:
     return dialogue.last_motion is not None
 
 
+def _looks_aside(dialogue: Dialogue) -> bool:
+    """Whether it looks another way than in the beginning."""
+    last = dialogue.last_motion
+    off_rad = wrap_angle(last.end_pose.yaw_rad - dialogue.start_pose.yaw_rad) if last is not None else 0.0
+    return abs(off_rad) > FAR_RAD / 4
+
+
 def _not_straight(dialogue: Dialogue) -> bool:
     """Whether the last motion was more, or something else, than one drive."""
     steps = _steps(dialogue.last_motion)
@@ -207,6 +217,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "taught": _is_taught,
     "several": lambda dialogue: _is_several(dialogue) and not _not_straight(dialogue),
     "not_straight": _not_straight,
+    "aside": _looks_aside,
     "just": lambda dialogue: dialogue.turns[-1].plan is not None,
     "moved": _has_moved,
 }
@@ -218,5 +229,7 @@ def _rules(language: str, table: str, name: str) -> tuple[Rule, ...]:
     pairs: Iterator[tuple[str, str]] = (
         (one, "") if isinstance(one, str) else (one[0], one[1]) for one in listed
     )
-    parts = load_table(language, "rephrase").get("parts", {})
+    parts = load_table(language, "rephrase").get("parts", {}) | load_table(language, "after_motion").get(
+        "parts", {}
+    )
     return rules(f"after_motion_{language}_{table}_{name}", list(pairs), parts)

@@ -35,6 +35,9 @@ def with_answered_amount(before: str, answer: str, reading: Reading) -> Interpre
     except Unclear as problem:
         if problem.code == "which_size":
             return _sized(before, answer, reading)
+        end = before.find(problem.part) + len(problem.part)
+        if problem.code == "how_long_a_step" and end < len(before):
+            return _plan_of(f"{before[:end]} {answer} {before[end:]}", reading)
         if problem.code != "no_unit" or not problem.part or told != atoms:
             return None
         for found in re.finditer(rf"(?<![\da-z.]){re.escape(problem.part)}(?![\da-z.])", before):

@@ -36,7 +36,7 @@ _UNANSWERED = frozenset(
     {"only_forbidden", "no_lasting_rule", "nothing_before", "nothing_to_undo", "nothing_undone", "condition"}
 )
 """What was said of an order that no word of an answer could complete."""
-_OF_ONE_MOTION = frozenset({"which_side", "which_way", "which_size"})
+_OF_ONE_MOTION = frozenset({"which_side", "which_way", "which_size", "how_long_a_step"})
 """What was asked of an order whose motion is known."""
 _TELLING = frozenset({"q", "num", "dir", "rot", "pace"})
 _MOTION = frozenset(
