@@ -475,6 +475,7 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
             ("draw a square, then, after sliding left 50 cm, turn left",),
             f"{_SQUARE}; drive 0.5 m left; turn left 90 deg",
         ),
+        (("go back 1 m and after turning left, wait",), "drive 1 m back; turn left 90 deg; wait 1 s"),
         (("go 2 m, remember this place as desk, go back",), 'drive 2 m; remember "desk"; drive 2 m back'),
         (("turn left 90", "45 instead"), "turn right 45 deg"),
         (("slide left 1 m", "right instead"), "drive 2 m right"),

@@ -75,7 +75,7 @@ def _behind_last_then(atoms: Sequence[Atom]) -> int:
 
 def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
     """`Turn left right after going …` tells an order; `turn left, and immediately after go …` only goes on."""
-    out = list(atoms)
+    out, parted = list(atoms), 0
     real = [i for i, a in enumerate(atoms) if a.kind not in ("filler", "glue")]
     for before, i, after in zip(real, real[1:], real[2:]):
         if atoms[i].text.split()[-1:] != ["after"] or atoms[after].kind not in ("verb", "dir"):
@@ -83,6 +83,7 @@ def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
         gerund = _is_gerund(atoms[after])
         if gerund and atoms[i].kind == "conn":
             out[i] = Atom("order", "after", atoms[i].text)
+            parted = parted or (i if _leads_to_order(list(atoms[i + 1 :])) else 0)
         elif (
             not gerund
             and after == i + 1
@@ -90,7 +91,7 @@ def _settled_after(atoms: Sequence[Atom]) -> list[Atom]:
             and atoms[before].kind in ("sep", "conn")
         ):
             out[i] = _THEN
-    return out
+    return [*out[:parted], _THEN, *out[parted:]] if parted else out
 
 
 def _second_order(tail: list[Atom], said_you: bool) -> int | None:
