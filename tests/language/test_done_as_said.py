@@ -478,6 +478,8 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("go back 1 m and after turning left, wait",), "drive 1 m back; turn left 90 deg; wait 1 s"),
         (("go 2 m, remember this place as desk, go back",), 'drive 2 m; remember "desk"; drive 2 m back'),
         (("turn left 90", "45 instead"), "turn right 45 deg"),
+        (("drive 1 m", "go back and wait"), "drive 1 m back; wait 1 s"),
+        (("drive 2 m", "turn left", "the same distance again, slowly"), "drive 2 m at 0.15 m/s"),
         (("slide left 1 m", "right instead"), "drive 2 m right"),
         (("drive 2 m", "turn left", "half the distance to the left"), "drive 1 m left"),
         (("drive two tiles and turn left", "30 cm"), "drive 0.3 m; drive 0.3 m; turn left 90 deg"),

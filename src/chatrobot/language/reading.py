@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from chatrobot.language.announced import with_announced
 from chatrobot.language.around import around_places, once_around
-from chatrobot.language.back import check_leads_to_start
+from chatrobot.language.back import check_leads_to_start, driven_back
 from chatrobot.language.brackets import unrolled
 from chatrobot.language.chatter import without_cautions, without_chatter
 from chatrobot.language.clauses import read_frames
@@ -18,7 +18,7 @@ from chatrobot.language.corrections import corrected, with_denied_motions, with_
 from chatrobot.language.dialogue import refer, walked
 from chatrobot.language.ellipsis import with_rates
 from chatrobot.language.facts import with_defined_units, with_words_counted
-from chatrobot.language.frames import Frame
+from chatrobot.language.frames import GO, STILL, TURN, Frame
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.last_motion import speeds_said, state_after
 from chatrobot.language.lexicon import lexicon
@@ -119,6 +119,10 @@ class Reading:
             if again is None or any("again" in frame.flags for frame in frames[1:]):
                 raise Unclear("unclear_motion", frames[0].text)
             return [*again, *self.steps_of_their_own(frames[1:])]
+        if _goes_back_first(frames):  # `go back and wait`
+            back = driven_back(frames[0], self.context, self.pace)
+            if back:
+                return [*back, *self.steps_of_their_own(frames[1:])]
         return refer(frames, self.context, self.pace) or self.steps_of_their_own(frames)
 
     def steps_of_their_own(self, frames: list[Frame]) -> list[Step]:
@@ -161,6 +165,16 @@ def _goes_on_after_again(frames: Sequence[Frame]) -> bool:
     if len(frames) < 2 or frames[0].verb or frames[1].joined != "then" or not frames[1].moves:
         return False
     return "again" in frames[0].flags and not frames[0].q and not is_chinese(frames[0].text)
+
+
+def _goes_back_first(frames: Sequence[Frame]) -> bool:
+    """Whether it says `go back`, and then what else."""
+    if len(frames) != 2 or frames[1].joined != "and" or is_chinese(frames[0].text):
+        return False
+    own = (frames[1].verb in STILL or frames[1].verb in TURN or frames[1].shape) and not frames[1].flags - {
+        "instead"
+    }
+    return bool(own) and frames[0].verb in GO
 
 
 def _done_as_taught(atoms: Sequence[Atom]) -> list[Atom]:
