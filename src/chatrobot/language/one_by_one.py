@@ -64,11 +64,15 @@ def _orders(text: str, reading: Reading) -> list[tuple[str, list[Frame]]]:
     parts = _parts(text, reading.language)
     if not 1 < len(parts) <= _MOST_PARTS:
         return []
-    orders = [(part, _frames(part, reading)) for part in parts]
-    frames = [each for _, each in orders]
-    if any("times" in frame.q for frame in frames[-1]):
+    orders: list[tuple[str, list[Frame]]] = []
+    for part in parts:
+        frames = _frames(part, reading)
+        if not _are_whole(frames) or (orders and _goes_on(orders[-1][1], frames)):
+            return []
+        orders.append((part, frames))
+    if any("times" in frame.q for frame in orders[-1][1]):
         return []  # `go 50 cm and turn right, 4 times`: both, maybe
-    return orders if all(map(_are_whole, frames)) and not any(map(_goes_on, frames, frames[1:])) else []
+    return orders
 
 
 def _parts(text: str, language: LanguageCode) -> list[str]:
