@@ -334,6 +334,8 @@ ALONE = [
     ("draw a half circle, turn left, draw a half circle",),
 ]
 AFTER_OTHERS = [
+    ("go 1 m", "sing", "again"),
+    ("前进一米", "唱首歌", "再来一个"),
     ("go 1 m", "the same to you"),
     ("call this base", "go 1 m", "reverse from base"),
     ("call this base", "go 1 m", "get out of base"),

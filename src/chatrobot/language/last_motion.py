@@ -93,12 +93,22 @@ def speeds_said(dialogue: Dialogue) -> tuple[float | None, float | None]:
     return speeds[-1] if speeds else None, rates[-1] if rates else None
 
 
+def _check_no_bare_repeat(frames: Sequence[Frame]) -> None:
+    """`Sing`, refused, then `again`: the motion before that is not meant."""
+    first = frames[0] if frames else Frame()
+    if first.flags & {"again", "extra"} and not (first.moves or first.q):
+        raise Unclear("unclear_motion", first.text)
+
+
 def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
     """A lone amount, or a lone side, goes on after a motion that said its own; else nobody can tell.
 
     Raises:
-        Unclear: `90 degrees` after `turn left`: so much more, or so much in all? `Clockwise` after `turn 180`?
+        Unclear: `again` after what was refused. `90 degrees` after `turn left`: so much more, or so much in all?
+            `Clockwise` after `turn 180`?
     """
+    if dialogue.turns and dialogue.turns[-1].outcome == "refused" and dialogue.turns[-1].plan is None:
+        _check_no_bare_repeat(frames)
     last = _last_told(dialogue)
     if len(frames) != 1 or last is None or last.plan is None:
         return
