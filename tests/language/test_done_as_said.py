@@ -13,6 +13,9 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        (("原地转五圈！往左边转！",), "turn left 1800 deg"),
+        (("右转一百度", "转多了，往回转一点，十度就行"), "turn left 10 deg"),
+        (("do one full circle going round to your left, 60 cm radius",), "arc left 360 deg radius 0.6 m"),
         (("drive 1 m back", "carry on"), "drive 0.5 m back"),
         (("drive 1 m left", "keep going for 1 m"), "drive 1 m left"),
         (("drive 1 m back", "turn left", "drive on 1 m"), "drive 1 m"),

@@ -174,6 +174,8 @@ def _completes(last: Frame, first: Frame) -> bool:
     """Across a full stop only what `last` lacks may be added: `turn right. ninety degrees.`"""
     if last.shape and not first.direction and not first.verb:
         return True
+    if last.verb in TURN and last.has_extent and not last.sided and first.verb in TURN and not first.q:
+        return first.sided  # 原地转五圈！往左边转！
     if not _is_fragment(first):
         return not last.moves and not last.has_extent
     if set(first.q) <= MANNER and not first.direction and not first.rot:

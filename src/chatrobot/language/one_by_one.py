@@ -110,7 +110,8 @@ def _goes_on(before: Sequence[Frame], order: Sequence[Frame]) -> bool:
     last, first = before[-1], order[0]
     if first.direction == "back":
         return not first.has_extent or last.verb in ("uturn", *TURN)  # `turn round and go back a metre`
-    how_it_is_drawn = bool(last.shape) and first.verb in TURN and first.sided and not first.q
+    open_side = bool(last.shape) or (last.verb in TURN and not last.sided)
+    how_it_is_drawn = open_side and first.verb in TURN and first.sided and not first.q
     return how_it_is_drawn or last.verb == first.verb == "uturn"
 
 
