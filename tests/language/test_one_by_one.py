@@ -24,7 +24,7 @@ DE = [
     "fahr einen Meter vor", "fahr 30 cm zurück", "dreh dich nach links", "dreh dich um 30 Grad nach rechts",
     "rutsch 40 cm nach links", "fahr ein Quadrat", "warte drei Sekunden",
 ]  # fmt: skip
-JOINTS = {"en": (" and ", ", then ", ". "), "zh": ("，然后", "，再", "。"), "de": (" und ", ", dann ", ". ")}
+JOINTS = {"en": (" and ", ". "), "zh": ("，然后", "。"), "de": (" und ", ", dann ")}
 
 
 def _plan(text: str) -> str | None:
