@@ -16,6 +16,7 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         (("remember this as corner", "go 1 m", "back to the corner"), 'go to 0 0 named "corner"'),
         (("remember this as centre", "go 1 m", "go to the centre"), 'go to 0 0 named "centre"'),
         (("把这里记为转角", "前进一米", "回到转角"), 'go to 0 0 named "转角"'),
+        (("turn left and then right",), "turn left 90 deg; turn right 90 deg"),
         (("原地转五圈！往左边转！",), "turn left 1800 deg"),
         (("右转一百度", "转多了，往回转一点，十度就行"), "turn left 10 deg"),
         (("do one full circle going round to your left, 60 cm radius",), "arc left 360 deg radius 0.6 m"),
