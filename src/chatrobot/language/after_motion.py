@@ -138,6 +138,12 @@ def _is_slide(dialogue: Dialogue) -> bool:
     return [*map(is_sideways, _steps(dialogue.last_motion))] == [True]
 
 
+def _ends_askew(dialogue: Dialogue) -> bool:
+    """Whether its last motion ended with a drive that was not straight ahead."""
+    moves = [step for step in _steps(dialogue.last_motion) if not isinstance(step, Wait)]
+    return bool(moves) and isinstance(moves[-1], Drive) and moves[-1].direction_rad != 0.0
+
+
 def _is_aslant(dialogue: Dialogue) -> bool:
     steps = _steps(dialogue.last_motion)
     [step] = steps if len(steps) == 1 else [None]
@@ -210,6 +216,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "turning": _turns_last,
     "slide": _is_slide,
     "aslant": _is_aslant,
+    "askew": _ends_askew,
     "figure": _draws,
     "clock": _said(frozenset({"clock"})),
     "paced": lambda dialogue: _only((Drive, Arc))(dialogue) and _said(_PACES)(dialogue),

@@ -9,7 +9,6 @@ from functools import lru_cache
 from chatrobot.language.acts import MAYBE_ORDER, order_log_odds, read_acts, without
 from chatrobot.language.answers import changes_nothing_said, with_answered_amount
 from chatrobot.language.command import read_command
-from chatrobot.language.data_files import load_table
 from chatrobot.language.facts import defined_unit
 from chatrobot.language.frames import EXTENTS, SIDES
 from chatrobot.language.interpretation import Interpretation
@@ -18,7 +17,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased, with_breaks
-from chatrobot.language.rules import form, rules
+from chatrobot.language.rules import form
 from chatrobot.language.selections import same_speed
 from chatrobot.language.set_off import set_off
 from chatrobot.language.sides import is_side, with_side
@@ -27,7 +26,7 @@ from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
-from chatrobot.plan.steps import Arc, Drive, Plan, Turn, Wait
+from chatrobot.plan.steps import Arc, Drive, Plan, Turn
 
 _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
 """Flags of what points at the motion before or is a motion itself, and answers no question."""
@@ -246,20 +245,3 @@ def with_earlier_speed(plain: str, reading: Reading) -> str:
 def _unit_defined_in(text: str, language: str) -> tuple[str, str] | None:
     """Asked of every earlier turn at each sentence: so each is read once."""
     return defined_unit(rephrased(normalise(text), language))
-
-
-def with_earlier_way(plain: str, reading: Reading) -> str:
-    """`Continue`, `drive on 1 m`, with the way of the drive before where that was not straight ahead."""
-    motion = reading.context.dialogue.last_motion
-    moves = (
-        [step for step in motion.plan.steps if not isinstance(step, Wait)] if motion and motion.plan else []
-    )
-    if not moves or not isinstance(moves[-1], Drive) or moves[-1].direction_rad == 0.0:
-        return plain
-    table = load_table(reading.language, "resuming")
-    onward = [(rule, said) for rule, said in table.get("onward", ())]
-    for rule in rules(
-        f"onward_{reading.language}", onward, load_table(reading.language, "rephrase").get("parts", {})
-    ):
-        plain = rule.applied(plain)
-    return plain

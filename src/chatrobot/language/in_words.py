@@ -10,7 +10,6 @@ from chatrobot.language.earlier_turns import (
     answer_to_question,
     with_earlier_speed,
     with_earlier_unit,
-    with_earlier_way,
 )
 from chatrobot.language.facts import told_of_units, with_measured_things
 from chatrobot.language.interpretation import Interpretation, taught
@@ -42,7 +41,7 @@ def read_in_words(plain: str, reading: Reading) -> Interpretation:
     told = told_of_units(forms.without_nod(plain, reading.language))
     if told is not None:
         return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
-    plain = with_earlier_way(with_earlier_unit(with_earlier_speed(plain, reading), reading), reading)
+    plain = with_earlier_unit(with_earlier_speed(plain, reading), reading)
     return _at_one_speed(plain, reading) or read_command(plain, reading)
 
 

@@ -131,4 +131,5 @@ def _is_whole(frame: Frame) -> bool:
 
 def _route(plan: Plan, has_moved: bool) -> str:
     """The plan as text. What begins where the robot began has one start: `turn left and go home`."""
-    return format_plan(plan).replace(" from start", " from start" if has_moved else "")
+    told = format_plan(plan)
+    return told if has_moved else told.replace(" from start", "")
