@@ -58,6 +58,7 @@ from chatrobot.language.rephrase import in_full, in_full_after, rephrased, with_
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
+from chatrobot.language.slips import without_slips
 from chatrobot.language.speed_limit import bounded, plan_within, within_limit, without_limit
 from chatrobot.language.starting import (
     as_ordered,
@@ -71,6 +72,7 @@ from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
 from chatrobot.language.usual import read_limit
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
+from chatrobot.language.wishes import of_wish
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.robots.profile import RobotProfile
 
@@ -95,7 +97,9 @@ class OfflineInterpreter:
         return replace(meant, reply=naming_points(meant.reply, context)) if said != text else meant
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
-        whole, before = in_full(normalise(text), language), context.dialogue
+        whole, before = without_slips(in_full(normalise(text), language), language), context.dialogue
+        wish = of_wish(whole, language)
+        whole = wish.text if wish is not None else whole
         if before.last_motion is not None and not (before.pending or before.offered or before.held):
             whole = in_full_after(whole, language)
         try:
@@ -108,7 +112,8 @@ class OfflineInterpreter:
         reason = not_ordered(text, language, meant.plan, context.dialogue) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
-        if hardly_ordered(said, language) or may_be_talk(meant, text, language, context):
+        is_doubted = (wish is not None and not wish.is_sure) or hardly_ordered(said, language)
+        if is_doubted or may_be_talk(meant, text, language, context):
             return proposed(meant, language) or meant
         return meant
 
