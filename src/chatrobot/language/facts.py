@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from functools import cache, lru_cache, partial
+from functools import cache, lru_cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.normalise import normalise
-from chatrobot.language.quantities import read_quantities
-from chatrobot.language.tokens import Atom, quantity, tokenise
-from chatrobot.language.unclear import Unclear
+from chatrobot.language.tokens import Atom, quantity
 from chatrobot.plan.steps import Drive, Plan
 
 _IS = frozenset(
@@ -20,8 +18,6 @@ _IS = frozenset(
 
 
 _APART = frozenset({"each", "between", "after_each"})
-_NOUNS = frozenset({"filler", "glue", "counter", "verb"})
-"""What else a word may mean whose length is told: `my stride is 70 cm`."""
 _FACTORS = {
     "half": 0.5, "twice": 2.0, "double": 2.0, "two times": 2.0, "three times": 3.0, "thrice": 3.0,
     "a third": 1 / 3, "a quarter": 0.25,
@@ -43,69 +39,6 @@ def _counts() -> tuple[tuple[re.Pattern[str], dict[str, int]], ...]:
 def _unit_patterns() -> tuple[re.Pattern[str], ...]:
     tables = [load_table(language, "facts") for language in LANGUAGES]
     return tuple(re.compile(pattern) for table in tables for pattern in table.get("units", ()))
-
-
-@lru_cache(maxsize=1)
-def _measured_things() -> tuple[dict[str, str], ...]:
-    tables = [load_table(language, "facts").get("measured", {}) for language in LANGUAGES]
-    return tuple(table for table in tables if table)
-
-
-def with_measured_things(text: str) -> str:
-    """`my ruler is 30 cm long, go ahead three rulers` → `go ahead three times 30 cm`, for a thing of no other meaning.
-
-    `The tiles are 30 cm each, go ahead seven of them`, too. A shape that is told with `the`, and that the rest does not
-    name, is a thing that stands there: `the box is 40 cm wide, drive 2 m`. The words are `[measured]`
-    of `facts.toml`.
-
-    Raises:
-        Unclear: for an amount that belongs to a thing which is not counted then.
-    """
-    for way in _measured_things():
-        found = re.search(way["said"], text)
-        if found is None:
-            continue
-        rest = f"{text[: found.start()]} {text[found.end() :]}".strip()
-        kinds = _kinds_of(found["thing"])
-        if "shape" in kinds and found["thing"] not in rest and any(map(_is_length, _quantities(rest))):
-            raise Unclear("unknown_part", found[0].strip(" ,.;:"))
-        groups = found.groupdict()
-        is_told_of_one = groups.get("one") and not groups.get(
-            "sort"
-        )  # `each step is 20 cm`: `with_defined_units`
-        if kinds - _NOUNS or (is_told_of_one and "counter" in kinds):
-            continue
-        number = re.compile(way["counted"].replace("THING", re.escape(found["thing"])))
-        if number.search(rest):
-            measure = found["measure"]
-            said = number.sub(partial(_so_many, way, measure), rest)
-            return re.sub(way["once"].replace("MEASURE", re.escape(measure)), measure, said)
-        raise Unclear("unknown_part", found[0].strip(" ,.;:"))
-    return text
-
-
-def _kinds_of(thing: str) -> set[str]:
-    """What the word means in a command: a side, a shape, what is counted in."""
-    words = lexicon().words
-    named = [(thing,), (f"{thing}s",), tuple(thing)]  # Chinese words are listed by their characters
-    return {kind for name in named for kind, _ in words.get(name, ())}
-
-
-def _quantities(text: str) -> list[Atom]:
-    return read_quantities(tokenise(text, lexicon(), {}))
-
-
-def _is_length(atom: Atom) -> bool:
-    return atom.kind == "q" and atom.value == "length"
-
-
-def _so_many(way: Mapping[str, str], measure: str, counted: re.Match[str]) -> str:
-    """`three` of `30 cm` each: one length, unless something is to be done between them."""
-    amounts = [a for said in (counted["count"], measure) for a in _quantities(said) if a.kind == "q"]
-    is_apart = any(a.kind == "flag" and a.value in _APART for a in _quantities(counted.string))
-    if is_apart or len(amounts) < 2 or counted.groupdict().get("half"):
-        return counted.expand(way["so_many"].replace("MEASURE", measure))
-    return f"{amounts[0].number * amounts[1].number:g} m"
 
 
 def defined_unit(text: str) -> tuple[str, str] | None:

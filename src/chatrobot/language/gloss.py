@@ -53,7 +53,7 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
     using = tables(language)
     written = {folded(word, language): word for word in _WORD.findall(text)}
     written |= {using.dialect[word]: said for word, said in written.items() if word in using.dialect}
-    spoken = _WORD.sub(lambda word: using.dialect.get(word[0], word[0]), folded(normalise(text), language))
+    spoken = written_plainly(text, language)
     taught = {
         tuple(said.split()) for found in using.taught.finditer(spoken) for said in found.groups() if said
     }
@@ -77,6 +77,12 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
         marked = " ".join(f"{re.escape(unit)}(?:{MARK})?" for unit in name)
         out = re.sub(rf"\b{marked}(?!\w)", " ".join(name), out)
     return Gloss(out, said)
+
+
+def written_plainly(text: str, language: str) -> str:
+    """`text` without letters of its own, and without words that are only written as they are spoken."""
+    dialect = tables(language).dialect
+    return _WORD.sub(lambda word: dialect.get(word[0], word[0]), folded(normalise(text), language))
 
 
 def _ordered(word: str) -> Iterator[str]:

@@ -15,8 +15,10 @@ from chatrobot.language.data_files import LANGUAGES
 from chatrobot.language.detect import language_of, spoken
 from chatrobot.language.gloss import MARK, Gloss, gloss
 from chatrobot.language.interpretation import Interpretation, LanguageCode, stopped
+from chatrobot.language.likeliest import proposed
 from chatrobot.language.names import names_in
 from chatrobot.language.own_words import in_own_words
+from chatrobot.language.things import by_things
 from chatrobot.plan.steps import Plan, Remember, Say, Step
 from chatrobot.plan.text import format_plan, parse_plan
 
@@ -29,6 +31,14 @@ _SHOWN = 60
 
 def read_glossed(text: str, language: LanguageCode, context: Context, read: Reader) -> Interpretation:
     """What `text` means, where `read` reads only words that it knows."""
+    put = by_things(text, language, context.world_places)
+    if put is None:
+        return _read_glossed(text, language, context, read)
+    meant = in_own_words(_read_glossed(put.text, language, context, read), text)
+    return meant if put.is_sure else proposed(meant, language) or meant
+
+
+def _read_glossed(text: str, language: LanguageCode, context: Context, read: Reader) -> Interpretation:
     known = _context_in_known_words(context)
     if language in LANGUAGES:
         meant = read(text, language, known)

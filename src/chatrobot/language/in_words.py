@@ -11,12 +11,13 @@ from chatrobot.language.earlier_turns import (
     with_earlier_speed,
     with_earlier_unit,
 )
-from chatrobot.language.facts import told_of_units, with_measured_things
+from chatrobot.language.facts import told_of_units
 from chatrobot.language.interpretation import Interpretation, taught
 from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.selections import speed_for_all
+from chatrobot.language.things import check_counted
 from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.usual import read_usual
@@ -29,7 +30,7 @@ def read_in_words(plain: str, reading: Reading) -> Interpretation:
     Raises:
         Unclear: where none of them is understood.
     """
-    plain = with_measured_things(plain)
+    check_counted(plain, reading.language)
     words = forms.read_definitions(plain, reading.language)
     if words:
         return _all_defined([_defined(one, reading) for one in words])
