@@ -80,6 +80,9 @@ def check_counted(plain: str, language: str) -> None:
         Unclear: naming what is told.
     """
     code = language if language in LANGUAGES else LANGUAGES[0]
+    unread = next(filter(None, (one.search(plain) for one in forms(code, "things", "unread"))), None)
+    if unread is not None:
+        raise Unclear("unknown_part", unread[0])
     for rest, one in _told(plain, code):
         head = one.thing.split(" ")[-1]
         named = [(head,), (head.removesuffix("s"),), tuple(head)]
