@@ -40,7 +40,11 @@ else:
 ASIDES = CORPUS / "asides"
 EACH, OF_FRAMES = 10, 0.4
 """So often each frame is filled; what all of its fillings weigh together."""
-PENALTY, ROUNDS, STEP = 0.2, 200, 0.5
+PENALTY, ROUNDS, STEP = 0.8, 200, 0.5
+LEAST_SEEN = 3
+"""A feature has a weight if so many clauses of people have it."""
+OF_TEXTS = 1.0
+"""What a clause of a whole text counts: the rules were made with these at hand, so their words tell less of others."""
 LEAST_WRITERS, WRITERS_A_FILE = 12, 40
 """A common word is used by so many, where a file counts as that many writers."""
 _SLOTS = {"t": "things", "p": "people", "a": "states", "w": "doing", "o": "other_orders", "n": "amounts",
@@ -113,7 +117,7 @@ def of_texts(file: Path) -> Iterator[Example]:
     rows = [line.replace("\\n", "\n").split("\t") for line in file.read_text(encoding="utf-8").splitlines()]
     still = Counter(text for kind, text, _ in rows if kind == "still")
     for kind, text, said in rows:
-        yield from of_text(as_read(text), said, kind == "aside", 1.0 / still.get(text, 1), file.stem)
+        yield from of_text(as_read(text), said, kind == "aside", OF_TEXTS / still.get(text, 1), file.stem)
 
 
 def as_read(text: str) -> str:
@@ -147,6 +151,7 @@ def common_words(given: Sequence[Example]) -> list[str]:
 
 
 def fit(given: Sequence[Example], slots: Sequence[tuple[int, ...]]) -> np.ndarray:
+    slots = seen_often(given, slots)
     columns = np.fromiter((slot for of_one in slots for slot in of_one), np.int64)
     rows = np.repeat(np.arange(len(given)), [len(of_one) for of_one in slots])
     y = np.array([e.aside for e in given], float)
@@ -159,6 +164,12 @@ def fit(given: Sequence[Example], slots: Sequence[tuple[int, ...]]) -> np.ndarra
         squares += slope * slope
         weights -= STEP * slope / np.sqrt(squares)
     return weights
+
+
+def seen_often(given: Sequence[Example], slots: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """The slots of each example without those that hardly any clause of people has."""
+    seen = Counter(slot for e, of_one in zip(given, slots) if e.source != "frames" for slot in of_one)
+    return [tuple(slot for slot in of_one if seen[slot] >= LEAST_SEEN) for of_one in slots]
 
 
 def check(given: list[Example], slots: list[tuple[int, ...]]) -> None:
@@ -187,7 +198,8 @@ def main() -> None:
         check(given, slots)
         return
     weights = fit(given, slots)
-    (DATA / "beside.bin").write_bytes(np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8).tobytes())
+    rounded = np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8)
+    (DATA / "beside.bin").write_bytes(zlib.compress(rounded.tobytes(), 9))
 
 
 if __name__ == "__main__":

@@ -13,10 +13,10 @@ from functools import lru_cache
 from chatrobot.language.data_files import DATA
 from chatrobot.language.signs import Clause, Sign, is_strong
 
-SLOTS = 1 << 16
+SLOTS = 1 << 18
 COMMON_WORDS = DATA / "beside_words.txt"
 """Words that many of the writers use whose sentences the weights are fitted to, one a line."""
-_ENDINGS = ("qx", "ing", "ed", "ly", "er", "est", "s")
+_ENDINGS = ("stqx", "tqx", "enqx", "qx", "ing", "ed", "ly", "er", "est", "s")
 _LEAST_OF_WORD = 2
 
 

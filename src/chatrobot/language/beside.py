@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -23,13 +24,13 @@ from chatrobot.language.signs import Clause, Names, Sign
 SCALE = 24.0
 """A weight of one is this much in a byte."""
 
-SURE_ASIDE, MAYBE_ASIDE = 0.5, 0.0
+SURE_ASIDE, MAYBE_ASIDE = 0.0, -0.5
 """A clause with higher odds than the first is surely an aside; with higher odds than the second, the order without it
 is proposed. Writers that were left out chose them: `fit_beside --check`."""
-SURE_BOUND, SURE_BEARING, CLEARLY_ASIDE = 2.5, 3.0, 5.0
+SURE_BOUND, SURE_BEARING, CLEARLY_ASIDE = 2.0, 2.5, 3.5
 """The first, for a clause with an amount in a sentence of its own, or a condition; one with a count, a denial or a
 correction beside the order; that no part of a sentence orders anything."""
-SURELY_NOT_MEANT = 1.5
+SURELY_NOT_MEANT = 1.0
 """A clause with lower odds that asks for what the robot cannot do may be meant: `grab the mug, go forward 1 m`."""
 NO_ASIDE = -2.0
 """A clause with lower odds is no aside, whatever else it sounds like: what is ordered beside it is proposed."""
@@ -37,7 +38,7 @@ BEARS = -9.0
 """Its odds, where its words say that it is none."""
 LEAST_TOLD = 4
 """What has so many words tells something: `nice, that you …` and `two of them` may be part of the order."""
-WITHOUT_AMOUNT = 1.0
+WITHOUT_AMOUNT = 0.7
 """So much less are the odds beside an order that tells no amount: it may be as little of one as they are."""
 SOUNDS_ORDERED = 1.5
 """So much less are the odds of a clause that sounds like an order itself: `and then turn away from him`."""
@@ -154,8 +155,8 @@ def is_sure_aside(clause: Clause, found: Mapping[int, Aside]) -> bool:
 def _least_odds(clause: Clause, apart: bool) -> float:
     """The odds from which a clause is surely an aside, by what in it could bear on the order."""
     labels = {sign.label for sign in clause.signs}
-    if labels <= {"opening"}:
-        return math.inf  # what is not said to its end: 左转，那个，就是
+    if labels <= {"opening", "correction"}:
+        return math.inf  # `sorry, 5 s`; or what is not said to its end: 左转，那个，就是
     if _may_bear_on_order(clause.signs, apart=True):
         return math.inf if _is_measured(clause.signs) else CLEARLY_ASIDE
     counts = not apart and _may_bear_on_order(clause.signs, apart)
@@ -271,6 +272,5 @@ def aside_log_odds(clauses: Sequence[Clause], i: int, order: int) -> float:
 
 
 @lru_cache(maxsize=1)
-def _weights() -> tuple[int, ...]:
-    data = (DATA / "beside.bin").read_bytes()
-    return tuple(byte - 256 if byte > 127 else byte for byte in data)
+def _weights() -> memoryview:
+    return memoryview(zlib.decompress((DATA / "beside.bin").read_bytes())).cast("b")
