@@ -17,6 +17,7 @@ from chatrobot.language.gloss import MARK, Gloss, gloss
 from chatrobot.language.interpretation import Interpretation, LanguageCode, stopped
 from chatrobot.language.likeliest import proposed
 from chatrobot.language.names import names_in
+from chatrobot.language.of_before import told_by_before
 from chatrobot.language.own_words import in_own_words
 from chatrobot.language.things import by_things
 from chatrobot.plan.steps import Plan, Remember, Say, Step
@@ -40,6 +41,9 @@ def read_glossed(text: str, language: LanguageCode, context: Context, read: Read
 
 def _read_glossed(text: str, language: LanguageCode, context: Context, read: Reader) -> Interpretation:
     known = _context_in_known_words(context)
+    told = told_by_before(text, language, known)
+    if told is not None:
+        return told
     if language in LANGUAGES:
         meant = read(text, language, known)
     elif reflex.is_stop(text):

@@ -39,6 +39,10 @@ class Form:
         """Return the first match in `text`."""
         return self.pattern.search(text) if self._is_tried or self._may_match(text) else None
 
+    def match(self, text: str, at: int = 0) -> re.Match[str] | None:
+        """Return the match that begins at `at`."""
+        return self.pattern.match(text, at) if self._is_tried or self._may_match(text) else None
+
     def fullmatch(self, text: str) -> re.Match[str] | None:
         """Return the match that is all of `text`."""
         return self.pattern.fullmatch(text) if self._is_tried or self._may_match(text) else None
