@@ -351,7 +351,6 @@ AFTER_OTHERS = [
     ("drive 2 m", "10% more"),
     ("drive 2 m", "to 5 m"),
     ("go 1 m", "turn right", "do both again but turn left"),
-    ("go forward 2 m", "go forward 1 m", "back up the total of those two"),
     ("forward 2 m then left 1 m sideways", "undo only the sideways bit"),
     ("forward 2 m, left 90, forward 1 m", "go half the way back to the start"),
     ("turn left 90", "face thirty degrees left of the direction you started in"),

@@ -12,7 +12,7 @@ import yaml
 
 from tests.language.dialogue_runner import run_item
 
-LEAST_CORRECT = {"zh": 1248, "en": 644, "de": 170}
+LEAST_CORRECT = {"zh": 1250, "en": 646, "de": 172}
 
 
 def sayings(language: str) -> Iterator[dict[str, Any]]:

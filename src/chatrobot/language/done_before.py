@@ -157,8 +157,10 @@ def _share(said: Said, before: _Before) -> list[Step] | None:
         return None
     if said.has("rest", "want", "short", "trip", "whole", "times"):
         return None
+    if said.has("undo") and not said.factors:
+        return None  # of whole turns
     way = said.has(*WAYS)
-    grows = any(factor > 1.0 for factor in said.factors) and said.has("driving", "turning")
+    grows = any(factor > 1.0 for factor in said.factors) and said.has("driving", "turning", "going")
     points = said.has("last", "as_far") or (
         said.has("weak") and bool(said.factors or said.amounts.keys() - {"amount"})
     )
@@ -172,8 +174,8 @@ def _share(said: Said, before: _Before) -> list[Step] | None:
     factor = said.factors[0] if said.factors else 1.0
     if (
         not way
-        and not said.has("undo")
-        and (said.has("again") or factor < 1.0 or not said.has("driving", "turning"))
+        and not said.has("undo", "off")
+        and (said.has("again") or factor < 1.0 or not said.has("driving", "turning", "going"))
     ):
         return None
     new_size = _changed(said, size * factor, run, before)
@@ -214,7 +216,7 @@ def _of_number(said: Said, before: _Before) -> list[Step] | None:
     told = last or named
     if told is None or said.factors or not said.only("named_last", "named") or said.has("forward", *SIDES):
         return None
-    if not said.has("back", "undo", "reverse", "oops") or (told.value == "number" and told.number < _FEWEST):
+    if not said.has("back", "off", "reverse", "oops") or (told.value == "number" and told.number < _FEWEST):
         return None
     for step in reversed([step for turn in before.done for step in turn]):
         size, amount = _size(step), _in_unit(told, [step], before)
@@ -229,8 +231,19 @@ def _of_number(said: Said, before: _Before) -> list[Step] | None:
 
 def _taken_back(said: Said, before: _Before) -> list[Step] | None:
     """`Take that last bit back`."""
-    plain = said.slots <= {"idle", "last", "back", "undo", "oops", "driving", "turning", "weak"}
-    if not plain or said.factors or said.amounts or not said.has("last") or not said.has("back", "undo"):
+    plain = said.slots <= {
+        "idle",
+        "last",
+        "back",
+        "off",
+        "oops",
+        "driving",
+        "turning",
+        "going",
+        "anew",
+        "weak",
+    }
+    if not plain or said.factors or said.amounts or not said.has("last") or not said.has("back", "off"):
         return None
     last = before.last
     return inverse([*last]) if len(last) == 1 and _size(last[0]) is not None else None
@@ -242,7 +255,7 @@ def _on_way(said: Said, run: Sequence[Step], size: float) -> Step | None:
     ways = [way for way in ways if way != "back" or len(ways) == 1 or said.has("turning")]
     alike = len({_sense(one) for one in run}) == 1
     new = _of_size(step, size)
-    goes_back = said.has("back", "undo", "oops")
+    goes_back = said.has("back", "undo", "off", "oops")
     if isinstance(new, Turn):
         sides = [way for way in ways if way in SIDES]
         if said.has("sliding", "forward", "reverse") or len(sides) > 1 or not (sides or alike):
@@ -255,7 +268,8 @@ def _on_way(said: Said, run: Sequence[Step], size: float) -> Step | None:
     if ways in ([], ["back"]):
         is_open = not alike or (bool(ways) and new.direction_rad == DIRECTIONS["back"])
         return None if is_open else inverse([new])[0] if goes_back else new
-    if ways == ["reverse"] and new.direction_rad != DIRECTIONS["forward"] and said.has(*SUMS, "total"):
+    goes_on = said.has("again") and new.direction_rad == DIRECTIONS["back"]
+    if ways == ["reverse"] and new.direction_rad != DIRECTIONS["forward"] and not goes_on:
         return None  # backwards once more, or back to where it came from?
     way = "back" if ways == ["reverse"] else ways[0]
     if way in SIDES and not (said.has("sliding") or all(map(is_sideways, run))):

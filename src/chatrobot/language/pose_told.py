@@ -8,15 +8,15 @@ from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.frames import SIDES
 from chatrobot.language.last_motion import in_unit_before
-from chatrobot.language.slots_said import HEADINGS, SUMS, Said
+from chatrobot.language.slots_said import HEADINGS, PLACES, SUMS, Said
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn
 
-_PLACES = {"at_front": 0.0, "at_back": math.pi, "at_left": math.pi / 2, "at_right": -math.pi / 2}
+_SIDES_RAD = dict(zip(PLACES, (0.0, math.pi, math.pi / 2, -math.pi / 2)))
 _SPOTS = ("first_spot", "before_spot")
 """`Where you were at the start` is a heading where it is turned to, else a place."""
 _OF_HEADING = (
     *("idle", "facing", "turning", "back", "shortest", "opposite", "left", "right", "amount"),
-    *("oops", "want", "weak", "standing", *HEADINGS),
+    *("oops", "want", "wish", "weak", "standing", "anew", *HEADINGS),
 )
 _NEAR_M, _NEAR_RAD = 0.02, math.radians(2.0)
 """What is within this of a line, or of a heading, is on it."""
@@ -31,7 +31,8 @@ def told_heading(said: Said, context: Context) -> list[Step] | None:
     if len(sides) != (angle is not None):
         return None
     if angle is None and not said.has("opposite"):
-        looks = said.has("turning", "facing", "shortest") or (said.has("back") and not said.has(*_SPOTS))
+        looks = said.has("turning", "facing", "shortest")
+        looks |= said.has("back", "anew") and not said.has(*_SPOTS)
         return [Face(base_rad, frame="odom")] if looks else None
     off_rad = math.pi
     if angle is not None:
@@ -63,13 +64,13 @@ def _base_rad(said: Said, dialogue: Dialogue) -> float | None:
 
 def told_place(said: Said, context: Context, unit_m: float) -> list[Step] | None:
     """`You should be 80 cm in front of the start, not behind it`: straight, where that leads there."""
-    named, far = [place for place in _PLACES if said.has(place)], said.amount("amount")
+    named, far = [place for place in PLACES if said.has(place)], said.amount("amount")
     if len(named) != 1 or far is None or not said.only("amount") or said.factors or said.has(*SUMS):
         return None
     length = in_unit_before(far, Drive(1.0), unit_m)
-    if length.value != "length" or not said.has("want", "standing", "there", "driving"):
+    if length.value != "length" or not said.has("want", "wish", "standing", "there", "driving", "going"):
         return None
-    along, start, here = _PLACES[named[0]], context.dialogue.start_pose, context.state.pose
+    along, start, here = _SIDES_RAD[named[0]], context.dialogue.start_pose, context.state.pose
     goal = start.compose(Pose(length.number * math.cos(along), length.number * math.sin(along)))
     seen = goal.relative_to(here)
     is_on_line = abs(seen.y_m) < _NEAR_M and abs(wrap_angle(here.yaw_rad - start.yaw_rad)) < _NEAR_RAD

@@ -8,6 +8,7 @@ from chatrobot.language.tokens import Atom
 
 WAYS = ("back", "reverse", "forward", "left", "right")
 HEADINGS = ("first_heading", "before_heading", "first_spot", "before_spot")
+PLACES = ("at_front", "at_back", "at_left", "at_right")
 SUMS = ("all", "both", "difference")
 
 
