@@ -335,7 +335,7 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
         ),
         (
             ("fahr 1 m", "fahr 20 cm", "die ganze Strecke wieder rückwärts"),
-            "drive 0.2 m back; drive 1 m back",
+            "drive 1.2 m back",
         ),
         (("a car is coming at you, go back 1 m",), "drive 1 m back"),
         (("nobody move. robot, forward 1 m",), "drive 1 m"),

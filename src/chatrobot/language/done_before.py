@@ -159,6 +159,8 @@ def _share(said: Said, before: _Before) -> list[Step] | None:
         return None
     if said.has("undo") and not said.factors:
         return None  # of whole turns
+    if said.has("back") and said.has("delta_more", "delta_less"):
+        return None  # `back by the same plus 10 cm`
     way = said.has(*WAYS)
     grows = any(factor > 1.0 for factor in said.factors) and said.has("driving", "turning", "going")
     points = said.has("last", "as_far") or (
@@ -185,7 +187,12 @@ def _share(said: Said, before: _Before) -> list[Step] | None:
 
 def _meant(said: Said, before: _Before) -> Sequence[Step]:
     """The motions that are spoken of, all turns or all drives; none where others could be meant."""
-    kind = Turn if said.has("turning") else Drive if said.has("driving", "sliding") else type(before.last[-1])
+    drives = said.has("driving", "sliding", "reverse", "forward")
+    kind = Turn if said.has("turning") else Drive if drives else type(before.last[-1])
+    if not drives and kind is Turn and not said.has("turning") and not said.has("both", "last", "as_far"):
+        kinds = {type(step) for turn in before.done for step in turn}
+        if len(kinds) > 1:
+            return ()  # `go back as far as you've gone altogether`, after 1 m and a turn
     if said.has("both", "difference"):
         pair = _last_two(before)
         return pair if all(type(step) is kind for step in pair) else ()

@@ -33,7 +33,7 @@ _MARK = re.compile(r"[;!。；…\n]|[,.:](?!\d)")
 _MARKS = " ,.;:!。；…\n"
 _NOT_BESIDE = BINDING | {
     *("report", "earlier", "later", "VERB", "DIR", "ROT", "SHAPE", "FULLTURN", "PLACE"),
-    *("NUMBER", "FRACTION", "SCALE", "TIMES"),
+    *("NUMBER", "FRACTION", "SCALE", "TIMES", "MULTIPLE", "PACE", "FASTER"),
 }
 """Labels of words that no clause beside such an order has: it denies, asks and bounds nothing, and tells no motion."""
 _COSTS = {"idle": 1.2, "amount": 1.1, "told": 0.9}

@@ -33,7 +33,7 @@ def told_heading(said: Said, context: Context) -> list[Step] | None:
     if angle is None and not said.has("opposite"):
         looks = said.has("turning", "facing", "shortest")
         looks |= said.has("back", "anew") and not said.has(*_SPOTS)
-        return [Face(base_rad, frame="odom")] if looks else None
+        return [Face(wrap_angle(base_rad), frame="odom")] if looks else None
     off_rad = math.pi
     if angle is not None:
         turn = in_unit_before(angle, Turn(1.0), 0.0)
