@@ -39,6 +39,8 @@ _THERE_AND_BACK = "drive 1 m; drive 1 m back"
         ("Rück mal 90 cm vor / Nochmal, nur diesmal rückwärts und 10 cm kürzer", "drive 0.8 m back"),
         ("fahr dreimal 40 cm vor / nochmal so, aber nur zweimal und seitwärts nach links",
          "drive 0.4 m left; drive 0.4 m left"),
+        ("fahr dreimal 40 cm vor, dazwischen jeweils 2 s Pause / nochmal so, aber nur zweimal und seitwärts nach links",
+         "drive 0.4 m left; wait 2 s; drive 0.4 m left"),
         ("1 m vor / 1 m zurück / das ganze hin und her noch mal", _THERE_AND_BACK),
         ("fahr einen Kreis mit 50 cm Radius / nochmal einen, aber mit 10 cm mehr Radius als eben",
          "arc left 360 deg radius 0.6 m"),

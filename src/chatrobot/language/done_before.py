@@ -136,7 +136,11 @@ def _again(said: Said, before: _Before) -> list[Step] | None:
     if new_size is None:
         return None
     moved = _on_way(said, steps[:1], new_size)
-    return [moved] * times if moved is not None else None
+    waits = {step for step in before.whole if isinstance(step, Wait)}
+    if moved is None or len(waits) > 1:
+        return None
+    each = [moved, *waits] * times  # as it waited in between
+    return each if isinstance(before.whole[-1], Wait) else each[: len(each) - len(waits)]
 
 
 def _changed(said: Said, size: float, run: Sequence[Step], before: _Before) -> float | None:
