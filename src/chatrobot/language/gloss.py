@@ -38,7 +38,7 @@ class Gloss:
 
     def as_said(self, words: str) -> str:
         """Part of the gloss as it was written, as far as that is known."""
-        whole = self.said.get(words)
+        whole = self.said.get(words) if len(words) > 1 else words  # point A is no `einen`
         return whole or re.sub(r"[^\W\d_]+", lambda found: self.said.get(found[0], found[0]), words)
 
     def as_kept(self, text: str) -> str:

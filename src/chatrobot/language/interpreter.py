@@ -67,6 +67,7 @@ from chatrobot.language.starting import (
     without_hold,
 )
 from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
+from chatrobot.language.to_taught import to_taught
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
@@ -106,6 +107,7 @@ class OfflineInterpreter:
             said, context = as_meant_after(with_told_apart(whole, language), language, context)
         except Unclear as problem:
             return asked_back(problem, language)
+        said = to_taught(said, language, context)
         text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")

@@ -73,6 +73,8 @@ def read_named_here(plain: str, reading: Reading, read: Callable[[str], list[Ste
             )
         except Unclear:
             continue
+        if found.groupdict().get("there") and not before:
+            continue  # `the place there` is none, where no motion leads to it
         whole = plain[: found.start()].rstrip(" ,;") + plain[found.end() :]
         return _placed([*before, Remember(name), *_going_on(before, after, whole, read)], reading)
     return None

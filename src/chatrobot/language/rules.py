@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, cached_property
 
 from chatrobot.language.compiled import compiled
-from chatrobot.language.data_files import in_full, load_table
+from chatrobot.language.data_files import LANGUAGES, in_full, load_table
 
 _SHORTEST = 2
 _TOKEN = re.compile(
@@ -84,10 +84,15 @@ NEVER = Form("(?!)")
 
 @cache
 def forms(language: str, table: str, name: str) -> tuple[Form, ...]:
-    """The patterns that a table lists under a name, with its `[parts]` put in; none where that language has none."""
+    """The patterns that a table lists under a name, with its `[parts]` put in; none where that language has none.
+
+    A language that is put into English words has the English ones where its table has none of that name.
+    """
 
     def sources() -> list[str]:
         found = load_table(language, table)
+        if name not in found and language not in LANGUAGES:
+            found = load_table(LANGUAGES[0], table)
         listed = found.get(name, ())
         listed = [listed] if isinstance(listed, str) else listed
         return [in_full(pattern, found.get("parts", {})) for pattern in listed]
