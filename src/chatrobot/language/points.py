@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from chatrobot.core.geometry import Pose
 from chatrobot.language.context import Context, Place
@@ -22,7 +22,8 @@ _TWIST = re.compile(r"linear|angular|twist|\bz ?[=:]", re.IGNORECASE)
 class _Words:
     """How a language leads to a point, goes on behind it, says the heading that a place has, and tells the frame.
 
-    `equals` and `minus` are words for those signs.
+    `equals` and `minus` are words for those signs; `origin` only says that it is where the robot stands; `along` is a
+    heading by an axis, `degrees` the same by an angle.
     """
 
     lead: re.Pattern[str]
@@ -31,6 +32,9 @@ class _Words:
     axes: re.Pattern[str]
     equals: str
     minus: str
+    origin: re.Pattern[str]
+    along: re.Pattern[str]
+    degrees: str
 
 
 def with_points(text: str, context: Context) -> tuple[str, Context]:
@@ -43,6 +47,7 @@ def with_points(text: str, context: Context) -> tuple[str, Context]:
         return text, context
     for words in _words() if _is_at_origin(context.state.pose) else ():
         text = words.axes.sub(lambda told: "" if told.end() == len(told.string) else told["mark"], text)
+        text = words.along.sub(partial(_by_degrees, words.degrees), words.origin.sub("", text))
     places: dict[str, Place] = {}
     out, at = "", 0
     for found in _point().finditer(text):
@@ -54,6 +59,14 @@ def with_points(text: str, context: Context) -> tuple[str, Context]:
         at = end
     dialogue = replace(context.dialogue, places={**context.dialogue.places, **places})
     return out + text[at:], replace(context, dialogue=dialogue)
+
+
+def _by_degrees(written: str, found: re.Match[str]) -> str:
+    """A heading along an axis, by degrees: `facing along minus y`."""
+    is_back = bool(found["back"])
+    return written.format(
+        degrees={("x", False): 0, ("y", False): 90, ("x", True): 180}.get((found["axis"], is_back), -90)
+    )
 
 
 def _is_at_origin(pose: Pose) -> bool:
@@ -105,6 +118,9 @@ def _words() -> tuple[_Words, ...]:
             re.compile(table["axes"], re.IGNORECASE),
             table["equals"],
             table["minus"],
+            re.compile(table.get("origin", "(?!)"), re.IGNORECASE),
+            re.compile(table.get("along", "(?!)"), re.IGNORECASE),
+            table.get("degrees", ""),
         )
         for table in tables
     )
@@ -115,10 +131,10 @@ def _point() -> re.Pattern[str]:
     """Both coordinates of a point: in brackets, or each behind its letter."""
     equals, minus = ("|".join(getattr(words, name) for words in _words()) for name in ("equals", "minus"))
     named = rf"((?:[-+−] ?|(?:{minus}) ?)?\d*[.,]?\d+)(?: ?m(?:et(?:er|re)s?)?\b)?"
-    between = r"[ ,，]*(?:(?<=[ ,，])[a-z]{1,3} )?"
+    between = r"[ ,，、]*(?:(?<=[ ,，])[a-z]{1,3} )?"
     return re.compile(
         rf"[(（] ?{_NUMBER} ?[,，] ?{_NUMBER} ?[)）]"
-        rf"|(?<![a-z])x ?(?:=|{equals}) ?{named}{between}y ?(?:=|{equals}) ?{named}(?![\d.])"
-        rf"|(?<![a-z\d])x {named}[ ,，]+(?:[a-z]{{1,3}} )?y {named}(?![\d.])",
+        rf"|(?<![a-z])x ?(?:=|{equals}) ?{named}{between}y ?(?:=|{equals}) ?{named}(?!\d|[.,]\d)"
+        rf"|(?<![a-z\d])x {named}[ ,，]+(?:[a-z]{{1,3}} )?y {named}(?!\d|[.,]\d)",
         re.IGNORECASE,
     )

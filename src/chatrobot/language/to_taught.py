@@ -22,6 +22,7 @@ from chatrobot.language.normalise import has_chinese
 from chatrobot.language.quoting import holds_back
 from chatrobot.language.rules import form, forms
 from chatrobot.language.signs import DEPENDING, Clause
+from chatrobot.language.talk import calls_somebody
 
 _ENDS = re.compile(r"[.!?;…\n]")
 _LEAST_HEAD, _LEAST_BEFORE = 4, 3
@@ -52,7 +53,10 @@ def to_taught(plain: str, language: str, context: Context) -> str:
         opens = not said or bool(place) or form(code, "naming", "opens").fullmatch(said) is not None
         begins = (begins and opens) or bool(place) or bool(_ENDS.search("".join(parts[k + 1 : k + 2])))
         before = (place, lead)
-    return _without_reasons(plain, "".join(parts), len(ordered), context) if ordered else plain
+    put = "".join(parts)
+    if not ordered or calls_somebody(read_acts(put, names_in(context)), code):
+        return plain
+    return _without_reasons(plain, put, len(ordered), context)
 
 
 def _written(context: Context) -> dict[str, str]:
