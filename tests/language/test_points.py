@@ -8,6 +8,7 @@ import pytest
 
 from chatrobot.plan.steps import Go
 from tests.language.dialogue_runner import Conversation
+from tests.language.test_usual import done
 
 
 @pytest.mark.parametrize(
@@ -86,3 +87,21 @@ def test_a_figure_that_is_called_out_is_drawn_whole(said: str) -> None:
     plan = Conversation().say(said).plan
     assert plan is not None
     assert [getattr(step, "angle_rad", None) for step in plan.steps] == [pytest.approx(2 * math.pi)]
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        (
+            "Go to the point x = 1.5, y = -0.8. The origin is where you're standing, x points ahead, y to your left.",
+            'go to 1.5 -0.8 named "(1.5, -0.8)"',
+        ),
+        ("Fahr zu x = 1,2 m, y = -0,5 m.", 'go to 1.2 -0.5 named "(1.2, -0.5)"'),
+        (
+            "以你出发的地方为原点，到x等于1.5、y等于负0.5那个点去，停的时候车头冲着y轴正方向",
+            'go to 1.5 -0.5 facing 90 deg named "(1.5, -0.5, 90)"',
+        ),
+    ],
+)
+def test_a_point_ends_a_sentence_and_a_heading_is_told_by_an_axis(said: str, plan: str) -> None:
+    assert done(said) == plan

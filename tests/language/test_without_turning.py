@@ -6,6 +6,7 @@ import pytest
 
 from chatrobot.plan.steps import Drive
 from tests.language.dialogue_runner import Conversation
+from tests.language.test_usual import done
 
 
 @pytest.mark.parametrize(
@@ -49,3 +50,33 @@ def test_that_way_is_where_it_looks_after_a_turn(said: str) -> None:
 
 def test_drawn_out_words_are_words() -> None:
     assert Conversation().say("let's gooo, straight aheaaad").outcome == "plan"
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("slide one metre left, nose stays pointing where it is", "drive 1 m left"),
+        ("half a metre to the left without any rotation of the chassis", "drive 0.5 m left"),
+        ("go 1 m to the right looking at the same direction as now", "drive 1 m right"),
+        ("Move 40 cm right and keep your nose straight ahead", "drive 0.4 m right"),
+        ("einen Meter nach links, aber die Blickrichtung so lassen", "drive 1 m left"),
+        ("50 cm nach rechts, aber so, dass du weiter nach vorn schaust", "drive 0.5 m right"),
+        ("Einen Meter nach links rüber. Drehen brauchst dich dabei nicht", "drive 1 m left"),
+        ("往右横着走1米，面朝的方向跟现在一样", "drive 1 m right"),
+        ("One metre toward front-left, at exactly 45 degrees", "drive 1 m toward 45 deg"),
+        ("one metre at 45 degrees toward the rear right, without rotating", "drive 1 m toward -135 deg"),
+        ("schräg nach vorne links raus, 45 Grad, einen Meter weit", "drive 1 m toward 45 deg"),
+        ("turn to the front left, 45 degrees", "turn left 45 deg"),
+    ],
+)
+def test_what_only_says_that_the_heading_stays_is_no_motion(said: str, plan: str) -> None:
+    assert done(said) == plan
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["my nose stays pointing where it is", "Drehen brauchst du dich nicht"],
+)
+def test_a_heading_that_stays_orders_nothing(said: str) -> None:
+    plan = Conversation().say(said).plan
+    assert plan is None
