@@ -67,6 +67,7 @@ def test_drawn_out_words_are_words() -> None:
         ("one metre at 45 degrees toward the rear right, without rotating", "drive 1 m toward -135 deg"),
         ("schräg nach vorne links raus, 45 Grad, einen Meter weit", "drive 1 m toward 45 deg"),
         ("turn to the front left, 45 degrees", "turn left 45 deg"),
+        ("end up 2 m ahead and 1 m left of where you are", "drive 2 m; drive 1 m left"),
     ],
 )
 def test_what_only_says_that_the_heading_stays_is_no_motion(said: str, plan: str) -> None:
