@@ -39,7 +39,11 @@ class Gloss:
     def as_said(self, words: str) -> str:
         """Part of the gloss as it was written, as far as that is known."""
         whole = self.said.get(words) if len(words) > 1 else words  # point A is no `einen`
-        return whole or re.sub(r"[^\W\d_]+", lambda found: self.said.get(found[0], found[0]), words)
+        if whole:
+            return whole
+        for phrase in sorted((said for said in self.said if " " in said), key=len, reverse=True):
+            words = re.sub(rf"\b{re.escape(phrase)}\b", lambda found: self.said[found[0]], words)
+        return re.sub(r"[^\W\d_]+", lambda found: self.said.get(found[0], found[0]), words)
 
     def as_kept(self, text: str) -> str:
         """A text with the words that no gloss covers as they were written."""
