@@ -99,3 +99,23 @@ def test_to_stand_still_for_a_time_is_still_a_wait() -> None:
 )
 def test_what_is_ordered_instead_has_nothing_of_what_was_denied(denied: str, order: str, plan: str) -> None:
     assert conversation(denied).say(order).plan == parse_plan(plan)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "oh no, don't turn left", "no no no, don't back up", "no don't turn left", "nope, don't go forward",
+        "no no no, don't you go backing up, there's a hole behind you",
+        "ach nein, nicht nach links drehen", "哎呀不对，不要左转",
+    ],
+)  # fmt: skip
+def test_what_is_said_before_a_denial_makes_no_order_of_it(said: str) -> None:
+    assert Conversation().say(said).plan is None
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["oh no, don't turn left, turn right", "go left, no, not left, right", "turn left, no not left, right"],
+)
+def test_what_follows_a_denial_is_done_alone(said: str) -> None:
+    assert Conversation().say(said).plan == parse_plan("turn right 90 deg")

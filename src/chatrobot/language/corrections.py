@@ -1,7 +1,4 @@
-"""Corrections inside a sentence: `left, sorry, I mean right`; and negations: `don't turn left.
-
-Turn right.`
-"""
+"""Corrections inside a sentence (`left, sorry, I mean right`) and negations (`don't turn left. Turn right.`)."""
 
 from __future__ import annotations
 
@@ -26,13 +23,11 @@ _ONLY_AFTER = frozenset({"rather", "wrong", "make it", "还是", "算了", "不�
 """Corrections only after something in the same sentence."""
 _DENIED = frozenset({"no", "nope", "no no", "oops", "whoops", "sorry", "oh no", "oh"})
 _DENIALS = frozenset({"不是", "not that"})
-_ONLY_DENYING = frozenset({"not", "don't", "do not", "never"})
 _AFTERTHOUGHTS = frozenset({"i mean", "i meant", "i mean to say", "rather"})
 _UNIT_FACTOR = re.compile(r"\d[\d.e+-]*")
 _PIECE = ("dir", "rot", "q", "pace", "verb", "shape", "place")
 _REPLACED = frozenset({"q", "dir", "rot"})
-_OFTEN = 12
-"""A bare number above is rather an amount than so many times."""
+_OFTEN = 12  # a bare number above is rather an amount than so many times
 MEANT = "meant"
 """The flag of what corrects the turn before."""
 CORRECTING = frozenset({MEANT, "short_of"})
@@ -117,8 +112,10 @@ def _of_the_turn_before(atoms: list[Atom]) -> list[Atom]:
     )
     denied = len(atoms) > 1 and atoms[0].text in _DENIED and atoms[1].kind == "sep"
     negated = any(a.kind == "negation" and a.text == "not" for a in atoms) and len(real) > 1
-    if lone and not swapped and _is_denied(atoms, at):  # `no, not left`
+    if (lone or meant) and not swapped and _is_denied(atoms, at):  # `no, not left`, `oh no, don't turn left`
         raise Unclear("only_forbidden", " ".join(a.text for a in atoms))
+    if meant and real[0].kind == "verb" and atoms[at - 1].kind == "negation":
+        return atoms[at - 1 :]  # `oh no, don't turn left, turn right`
     opposite = [a for a in atoms[:at] if a.value in _OPPOSITE]
     if (said or denied) and opposite and not real:
         return [Atom("flag", MEANT, (said or atoms)[0].text), opposite[0]]  # 不对，反方向
@@ -135,7 +132,7 @@ def _is_denied(atoms: Sequence[Atom], at: int) -> bool:
     before = [a for a in atoms[:at] if a.kind not in ("filler", "glue")]
     last = not any(a.kind in ("sep", "conn", "negation") and a.text not in ".!?" for a in atoms[at:])
     opens = any(a.kind in ("sep", "correction") for a in before)
-    return last and opens and (before[-1].text in _DENIALS or before[-1].text in _ONLY_DENYING)
+    return last and opens and (before[-1].text in _DENIALS or before[-1].kind == "negation")
 
 
 def _is_correction(atoms: list[Atom], i: int) -> bool:
@@ -184,7 +181,9 @@ def _replaced(before: list[Atom], after: list[Atom]) -> list[Atom]:
         end += 1
     said, rest = after[start:end], after[end:]
     pieces = [a for a in said if a.kind in _PIECE]
-    if start and after[start - 1].text in _ONLY_DENYING and not any(a.kind in _PIECE for a in rest):
+    if start and after[start - 1].kind == "negation":
+        if any(a.kind in _PIECE for a in rest):
+            return _replaced(before, rest)  # `left, no, not left, right`
         raise Unclear("only_forbidden", " ".join(a.text for a in after))  # `stop, I wanted not left`
     unit = next((a for a in said if a.kind in ("unit_length", "unit_angle", "unit_time")), None)
     last = next((i for i in range(len(before) - 1, -1, -1) if before[i].kind == "q"), None)
