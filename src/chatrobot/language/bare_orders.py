@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from chatrobot.language.acts import Read, order_log_odds
+from chatrobot.language.beside import any_may_bear
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.manner import Pace
 from chatrobot.language.set_off import has_amount
@@ -30,6 +31,15 @@ def is_bare_order(plan: Plan | None, kept: Sequence[Read], left_out: Sequence[Re
     usual = bool(steps) and all(_is_usual(step, pace) for step in steps)
     is_sure = order_log_odds(kept) >= SURE_BARE and not any(has_amount(read.clause) for read in left_out)
     return usual and not is_sure and not any(map(_tells_size, kept))
+
+
+def is_doubted_beside(
+    plan: Plan | None, reads: Sequence[Read], talk: Sequence[Read], apart: Sequence[Read], pace: Pace
+) -> bool:
+    """Whether a clause that was passed over as talk may bear on the order; those `apart` surely do not."""
+    kept = [read for read in reads if read not in talk]
+    bears = any_may_bear(reads, [read for read in talk if read not in apart])
+    return bears or is_bare_order(plan, kept, talk, pace)
 
 
 def _is_usual(step: Step, pace: Pace) -> bool:

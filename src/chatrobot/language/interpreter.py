@@ -21,9 +21,8 @@ from chatrobot.language.acts import (
     without_requests,
 )
 from chatrobot.language.after_motion import as_meant_after
-from chatrobot.language.bare_orders import is_bare_order
+from chatrobot.language.bare_orders import is_doubted_beside
 from chatrobot.language.beside import (
-    any_may_bear,
     are_asides,
     odds_beside_asides,
     refers_alone,
@@ -233,13 +232,11 @@ class OfflineInterpreter:
         if rest:
             try:
                 meant = self._interpreted(rest, language, context)
-                # What a request for a program tells in full is its own reader's.
-                bears = any_may_bear(reads, [read for read in talk if read not in apart])
-                bears = bears and not read_program_request(rest)
-                kept = [read for read in reads if read not in talk]
                 pace = Reading(language, context, self._profile).pace
-                bears |= is_bare_order(meant.plan, kept, talk, pace)
-                return (proposed(meant, language) or meant) if bears else meant
+                # What a request for a program tells in full is its own reader's.
+                surely = talk if read_program_request(rest) else apart
+                is_doubted = is_doubted_beside(meant.plan, reads, talk, surely, pace)
+                return (proposed(meant, language) or meant) if is_doubted else meant
             except Unclear as problem:
                 missing = problem if problem.code in OF_AN_ORDER and apart else None
         try:
@@ -247,13 +244,9 @@ class OfflineInterpreter:
         except Unclear as problem:
             if problem.refused and missing is not None:
                 raise missing from None  # `slide over 2 feet, so I can get this ladder by`: to which side?
-            is_final = (
-                problem.refused or problem.code == "condition"
-            )  # `if you can turn left, …` is no request
-            asked = "" if is_final else without_requests(rest or plain, names)
-            if asked:
-                with contextlib.suppress(Unclear):
-                    return self._interpreted(asked, language, context)
+            asked = self._as_requested(rest or plain, problem, language, context)
+            if asked is not None:
+                return asked
             asks = problem.code in ("only_forbidden", "no_lasting_rule") and any(
                 read.clause.asks for read in reads
             )
@@ -263,6 +256,17 @@ class OfflineInterpreter:
         if meant.outcome != "plan" or read_twists(plain):
             return meant
         return self._surely_ordered(meant, plain, reads, language, context)
+
+    def _as_requested(
+        self, plain: str, problem: Unclear, language: LanguageCode, context: Context
+    ) -> Interpretation | None:
+        """What a text means without the words that request it; None where that is not read either."""
+        if problem.refused or problem.code == "condition":  # `if you can turn left, …` is no request
+            return None
+        asked = without_requests(plain, names_in(context))
+        with contextlib.suppress(Unclear):
+            return self._interpreted(asked, language, context) if asked else None
+        return None
 
     def _told(self, plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """What readers of their own answer, remember, put somewhere or go on with; None where none of them does."""

@@ -148,8 +148,8 @@ def _keep(costs: dict[int, tuple[float, list[_Word]]], at: int, cost: float, wor
 
 
 def _begins(plain: str, i: int, language: str) -> bool:
-    """Whether a word may begin there: anywhere in Chinese."""
-    return plain[i] not in _MARKS and (language == "zh" or i == 0 or not plain[i - 1].isalnum())
+    """Whether a word may begin there: anywhere in a language that does not part them."""
+    return plain[i] not in _MARKS and (not _parts_words(language) or i == 0 or not plain[i - 1].isalnum())
 
 
 def _words_at(plain: str, i: int, language: str) -> Iterator[_Word]:
@@ -165,13 +165,17 @@ def _group(found: re.Match[str]) -> str:
     return said.get("amount") or said.get("times") or ""
 
 
+def _parts_words(language: str) -> bool:
+    return bool(load_table(language, "of_before")["parts_words"])
+
+
 @cache
 def _slots(language: str) -> tuple[tuple[str, Form], ...]:
     """Each pattern with its slot; that of a factor is the pattern as it stands in the file."""
     table = load_table(language, "of_before")
     listed = [(slot, one) for slot, patterns in table["slots"].items() for one in patterns]
     listed += [(pattern, pattern) for pattern in table["factors"]]
-    ends = "" if language == "zh" else r"(?!\w)"
+    ends = r"(?!\w)" if _parts_words(language) else ""
     forms = forms_of(
         f"of_before_{language}", lambda: [f"(?:{with_parts(one, table['parts'])}){ends}" for _, one in listed]
     )

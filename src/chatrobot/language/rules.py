@@ -35,9 +35,9 @@ class Form:
         """The pattern, compiled at the first look."""
         return re.compile(self._source)
 
-    def search(self, text: str) -> re.Match[str] | None:
-        """Return the first match in `text`."""
-        return self.pattern.search(text) if self._is_tried or self._may_match(text) else None
+    def search(self, text: str, at: int = 0) -> re.Match[str] | None:
+        """Return the first match in `text` from `at` on."""
+        return self.pattern.search(text, at) if self._is_tried or self._may_match(text) else None
 
     def match(self, text: str, at: int = 0) -> re.Match[str] | None:
         """Return the match that begins at `at`."""

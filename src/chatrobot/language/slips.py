@@ -42,9 +42,7 @@ def without_slips(text: str, language: str) -> str:
     at = 0
     text = _without_insisted(text, language)
     for _ in range(_MOST_SLIPS):
-        slip = (
-            _form(language, "slip").pattern.search(text, at) if _form(language, "slip").search(text) else None
-        )
+        slip = _form(language, "slip").search(text, at)
         if slip is None:
             break
         mended = _mended(text, slip, language)
@@ -59,9 +57,9 @@ def _form(language: str, name: str) -> Form:
 
 def _mended(text: str, slip: re.Match[str], language: str) -> str | None:
     """The text with what was meant in the place of the slip, and no slip; None where that is not sure."""
-    end = _form(language, "end").pattern.search(text, slip.end())
+    end = _form(language, "end").search(text, slip.end())
     stop = end.start() if end else len(text)
-    tail = _form(language, "tail").pattern.search(text, slip.end())
+    tail = _form(language, "tail").search(text, slip.end())
     said = text[slip.end() : tail.start() if tail and tail.start() <= stop else stop]
     stop = tail.end() if tail and tail.start() <= stop else stop
     has_tail = bool(tail and tail.end() == stop)
@@ -91,7 +89,7 @@ def pieces(text: str, language: str) -> list[Piece]:
     found = []
     for match in _form(language, "piece").pattern.finditer(text):
         kind = (match.lastgroup or "").rstrip("_")
-        number = _form(language, "number").pattern.search(match[0]) if kind not in _WAYS else None
+        number = _form(language, "number").search(match[0]) if kind not in _WAYS else None
         value = _value(number[0]) if number else 0.0
         found.append(Piece(kind, match[0], match.start(), match.end(), value, number[0] if number else ""))
     return found
@@ -192,7 +190,7 @@ def _spelt_out(scope: str, meant: Sequence[Piece], rest: str, language: str) -> 
     if opening is None or any(piece.kind not in _WAYS for piece in (*meant, *pieces(scope, language))):
         return ""
     whole = rest[opening.end() :]
-    end = _form(language, "end").pattern.search(whole)
+    end = _form(language, "end").search(whole)
     told = pieces(whole[: end.start() if end else len(whole)], language)
     ways = [piece.text for piece in told if piece.kind in _WAYS]
     return whole if ways == [piece.text for piece in meant] and len(told) > len(ways) else ""
@@ -203,7 +201,7 @@ def _without_echo(put: str, rest: str, language: str) -> str:
     mark = _form(language, "mark").search(rest)
     if mark is None or _form(language, "next").search(rest):
         return rest
-    end = _form(language, "end").pattern.search(rest, mark.end())
+    end = _form(language, "end").search(rest, mark.end())
     stop = end.start() if end else len(rest)
     said = rest[mark.end() : stop]
     again, told = pieces(said, language), pieces(put, language)

@@ -25,7 +25,8 @@ class Wish:
 def of_wish(text: str, language: str) -> Wish | None:
     """The normalised text without the wish of somebody else in it; None where none is told.
 
-    One that is denied, put off or asked about stays in the text."""
+    One that is denied, put off or asked about stays in the text.
+    """
     found = (_wish(text, clause, language) for clause in clauses_of(text))
     wish = next((wish for wish in found if wish is not None), None)
     denied = wish is not None and (
@@ -49,7 +50,7 @@ def _wish(text: str, clause: Clause, language: str) -> Wish | None:
         if found is None:
             continue
         begin = clause.start + found.end()
-        end = _form(language, "end").pattern.search(text, begin)
+        end = _form(language, "end").search(text, begin)
         stop = end.start() if end else len(text)
         if not _form(language, "ordered").search(text[begin:stop]):
             wish = _beside(text, clause.start, stop, language)
