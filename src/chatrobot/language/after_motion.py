@@ -21,7 +21,7 @@ from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.normalise import normalise
 from chatrobot.language.questions import is_question
 from chatrobot.language.rephrase import in_full
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rules, rules
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import FAR_RAD
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
@@ -43,13 +43,13 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
     if dialogue.held is not None or dialogue.offered is not None or not dialogue.turns:
         return plain, context
     for name, is_so in _AFTER.items():
-        for rule in _rules(language, "after", name):
+        for rule in _rules(language, "after", name).that_may_match(plain):
             if rule.is_in(plain) and is_so(dialogue):
                 if not rule.said:
                     raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
                 plain = rule.applied(plain)
     for kind in _MEANT:
-        if any(rule.is_in(plain) for rule in _rules(language, "means", kind)):
+        if _rules(language, "means", kind).any_in(plain):
             return plain, replace(context, dialogue=_of_kind(kind, plain, dialogue))
     return plain, context
 
@@ -231,7 +231,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
 
 
 @cache
-def _rules(language: str, table: str, name: str) -> tuple[Rule, ...]:
+def _rules(language: str, table: str, name: str) -> Rules:
     listed = load_table(language, "after_motion").get(table, {}).get(name, ())
     pairs: Iterator[tuple[str, str]] = (
         (one, "") if isinstance(one, str) else (one[0], one[1]) for one in listed

@@ -11,7 +11,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
-from chatrobot.language.gloss_tables import UNIT, VERB, Key, Rules, Tables, folded, tables
+from chatrobot.language.gloss_tables import UNIT, VERB, Key, Tables, folded, tables
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.typos import is_slip
@@ -62,7 +62,7 @@ def gloss(text: str, language: str, names: Collection[Key] = ()) -> Gloss:
         tuple(said.split()) for found in using.taught.finditer(spoken) for said in found.groups() if said
     }
     names = {name for name in (*names, *taught) if name}  # none of a name that is all marks
-    plain = _replaced(spoken, using.before)
+    plain = using.before.applied(spoken)
     folded_names = {tuple(folded(unit, language) for unit in name): name for name in names}
     folded_names |= {
         (said,): name for key, name in folded_names.items() if len(key) == 1 for said in _ordered(key[0])
@@ -101,20 +101,14 @@ def _ordered(word: str) -> Iterator[str]:
 
 def _in_order(words: str, using: Tables) -> str:
     """English words in the order that the reader expects."""
-    ruled = "".join(_replaced(part.lstrip(), using.rules) + " " for part in _SENTENCE.split(words))
+    ruled = "".join(using.rules.applied(part.lstrip()) + " " for part in _SENTENCE.split(words))
     clauses = [clause for part in _BREAK.split(ruled) for clause in using.joint.split(part)]
     opened = "".join(_verb_first(clause, using) for clause in clauses).replace(VERB, "")
-    return _tidy(_replaced(_tidy(opened).replace("~", " "), using.after)).strip(" ,")
+    return _tidy(using.after.applied(_tidy(opened).replace("~", " "))).strip(" ,")
 
 
 def _tidy(text: str) -> str:
     return _BEFORE_MARK.sub(r"\1", _SPACES.sub(" ", text))
-
-
-def _replaced(text: str, rules: Rules) -> str:
-    for rule in rules:
-        text = rule.applied(text)
-    return text
 
 
 def _words(units: list[str], using: Tables, names: Mapping[Key, Key]) -> Iterator[tuple[Key, str]]:

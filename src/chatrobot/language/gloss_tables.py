@@ -11,7 +11,7 @@ from typing import Any
 
 from chatrobot.language.compiled import compiled
 from chatrobot.language.data_files import expand, in_full, load_table
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rules, rules
 
 VERB = "^"
 """Follows a verb that may stand last in its clause, and is to open it."""
@@ -22,7 +22,6 @@ _ADJECTIVE = re.compile(r"^([a-z]\w*?)(?:er|es|e)(?= )")
 """The first word of a place's name where it begins with a small letter: its ending changes."""
 
 Key = tuple[str, ...]
-Rules = tuple[Rule, ...]
 
 
 @dataclass(frozen=True)

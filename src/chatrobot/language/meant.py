@@ -16,7 +16,7 @@ from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.resuming import saying
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rules, rules
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import taken_back
@@ -147,11 +147,13 @@ def asked_by_remark(text: str, language: str) -> str:
     if fixed:
         return fixed
     plain = normalise(text)
-    return next((rule.applied(plain) for rule in _measured(language) if rule.is_in(plain)), "")
+    return next(
+        (rule.applied(plain) for rule in _measured(language).that_may_match(plain) if rule.is_in(plain)), ""
+    )
 
 
 @cache
-def _measured(language: str) -> tuple[Rule, ...]:
+def _measured(language: str) -> Rules:
     parts = load_table(language, "rephrase").get("parts", {})
     return rules(f"remarks_{language}", load_table(language, "remarks").get("measured", ()), parts)
 

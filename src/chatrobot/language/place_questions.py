@@ -16,7 +16,7 @@ from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import by_language, say
 from chatrobot.language.points import word_of
 from chatrobot.language.questions import places_known, topic_of, unknown_pose
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rules, rules
 from chatrobot.language.seen import SECTORS, what_is_seen
 from chatrobot.language.typos import edit_distance
 
@@ -34,7 +34,7 @@ class _Place(NamedTuple):
 
 
 @cache
-def _rules(language: str) -> tuple[Rule, ...]:
+def _rules(language: str) -> Rules:
     table = load_table(language, "places_asked")
     name = rf"(?:{table['article']})*(?P<place>.+?)"
     whole = "(?:{before})*(?:{said})(?:{after})*"
@@ -48,7 +48,7 @@ def _rules(language: str) -> tuple[Rule, ...]:
 def answer_about_places(plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
     """The answer to a normalised text that asks about places and nothing else; None for any other text."""
     said = plain.strip(" ?!.。,~")
-    for rule in _rules(language):
+    for rule in _rules(language).that_may_match(said):
         found = rule.fullmatch(said)
         if found is None:
             continue

@@ -11,11 +11,11 @@ from functools import cache, lru_cache
 
 from chatrobot.language.data_files import load_table
 from chatrobot.language.normalise import has_chinese, normalise
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rules, rules
 
 
 @cache
-def _rules(language: str, name: str = "rules") -> tuple[Rule, ...]:
+def _rules(language: str, name: str = "rules") -> Rules:
     table = load_table(language, "rephrase")
     return rules(f"rephrase_{language}_{name}", table.get(name, ()), table.get("parts", {}))
 
@@ -112,10 +112,7 @@ def _of_wishes(text: str, language: str) -> str:
 @lru_cache(maxsize=256)
 def rephrased(text: str, language: str) -> str:
     """`text` (normalised) in the words that the rest of the package reads."""
-    text = _spelled_out(text, language)
-    for rule in _rules(language):
-        text = rule.applied(text)
-    return text
+    return _rules(language).applied(_spelled_out(text, language))
 
 
 def rewritings(text: str, language: str) -> Iterator[tuple[int, str, str]]:
@@ -130,17 +127,14 @@ def rewritings(text: str, language: str) -> Iterator[tuple[int, str, str]]:
 
 def in_full(text: str, language: str) -> str:
     """`text` (normalised) with words in full that people type short: `ur on my foot`, `fwd 1 m k`."""
-    for rule in _rules(language, "short"):
-        text = rule.applied(text)
+    text = _rules(language, "short").applied(text)
     written, pattern = _contractions(language)
     return pattern.sub(lambda found: written[found[0]], text)
 
 
 def in_full_after(text: str, language: str) -> str:
     """`text` as `in_full` reads it where something was done before it: 走满三米 is what is missing to them."""
-    for rule in _rules(language, "after"):
-        text = rule.applied(text)
-    return text
+    return _rules(language, "after").applied(text)
 
 
 def _spelled_out(text: str, language: str) -> str:
@@ -156,9 +150,7 @@ def with_breaks(text: str, language: str) -> str:
     """`text` (normalised) with the commas that dictation leaves out: 转三圈我看看 is 转三圈, 我看看."""
     if re.search(load_table(language, "rephrase").get("unbroken", ""), text):
         return text
-    for rule in _rules(language, "breaks"):
-        text = rule.applied(text)
-    return text
+    return _rules(language, "breaks").applied(text)
 
 
 def plain_text(said: str) -> str:

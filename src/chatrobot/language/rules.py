@@ -7,7 +7,8 @@ every match needs; which words those are is read off the pattern.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, cached_property
 
 from chatrobot.language.compiled import compiled
@@ -27,7 +28,7 @@ class Form:
     """A pattern, which answers what `re.Pattern` of that name would."""
 
     def __init__(self, source: str, needed: Sequence[str] = ()) -> None:
-        self._source, self._needed = source, needed
+        self._source, self.needed = source, needed
         self._is_tried = not needed
 
     @cached_property
@@ -52,7 +53,7 @@ class Form:
         return self.pattern.sub(put, text, count=count) if self.search(text) else text
 
     def _may_match(self, text: str) -> bool:
-        for word in self._needed:  # `any` would take three times as long, and most stop here
+        for word in self.needed:  # `any` would take three times as long, and most stop here
             if word in text:
                 self._is_tried = True
                 return True
@@ -76,6 +77,56 @@ class Rule(Form):
             return text
         # Most do not match, and to prepare what is put there takes longer than to see that.
         return self.pattern.sub(self.said, text) if self.pattern.search(text) else text
+
+
+class Rules:
+    """Rules in their order. Only those are tried on a text that it has two letters of, which a match of them needs."""
+
+    def __init__(self, listed: Sequence[Rule]) -> None:
+        self._rules = tuple(listed)
+        self._unbound, self._by_pair = 0, defaultdict[str, int](int)
+        counts = Counter(pair for rule in listed for word in rule.needed for pair in set(_pairs(word)))
+        for number, rule in enumerate(listed):
+            if not rule.needed:
+                self._unbound |= 1 << number
+            for word in rule.needed:
+                self._by_pair[min(_pairs(word), key=counts.__getitem__)] |= 1 << number
+
+    def __iter__(self) -> Iterator[Rule]:
+        return iter(self._rules)
+
+    def that_may_match(self, text: str) -> Iterator[Rule]:
+        """Yield each rule that may match."""
+        tried = self._tried(text)
+        while tried:
+            yield self._rules[(tried & -tried).bit_length() - 1]
+            tried &= tried - 1
+
+    def applied(self, text: str) -> str:
+        """Return `text` with each match of each rule replaced, rule by rule."""
+        tried = self._tried(text)
+        while tried:
+            number = (tried & -tried).bit_length() - 1
+            tried &= tried - 1
+            changed = self._rules[number].applied(text)
+            if changed != text:  # it may match other rules now
+                text = changed
+                tried = self._tried(text) >> (number + 1) << (number + 1)
+        return text
+
+    def any_in(self, text: str) -> bool:
+        """Return whether any of them matches somewhere in `text`."""
+        return any(rule.is_in(text) for rule in self.that_may_match(text))
+
+    def _tried(self, text: str) -> int:
+        tried = self._unbound
+        for pair in set(_pairs(text)):
+            tried |= self._by_pair.get(pair, 0)
+        return tried
+
+
+def _pairs(text: str) -> list[str]:
+    return [text[at : at + 2] for at in range(len(text) - 1)]
 
 
 NEVER = Form("(?!)")
@@ -118,7 +169,7 @@ def forms_of(name: str, sources: Callable[[], Iterable[str]]) -> tuple[Form, ...
     return tuple(Form(*one) for one in compiled(f"forms_{name}", build))
 
 
-def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) -> tuple[Rule, ...]:
+def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) -> Rules:
     """Return rules from pairs of a pattern (`<part>` stands for one of `parts`) and what takes its place, in order.
 
     Args:
@@ -129,7 +180,7 @@ def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) 
         full = ((in_full(pattern, parts), said) for pattern, said in listed)
         return tuple((pattern, said, tuple(sorted(needed_by(pattern)))) for pattern, said in full)
 
-    return tuple(Rule(*one) for one in compiled(name, build))
+    return Rules([Rule(*one) for one in compiled(name, build)])
 
 
 def needed_by(pattern: str) -> Needed:

@@ -14,7 +14,7 @@ from functools import cache
 from chatrobot.language.acts import ORDER, Read, order_log_odds, read_acts, without
 from chatrobot.language.data_files import load_table
 from chatrobot.language.lexicon import lexicon
-from chatrobot.language.rules import Rule, rules
+from chatrobot.language.rules import Rules, rules
 from chatrobot.language.signs import Clause, Names, Sign
 
 _COUNTS = frozenset({"NUMBER", "FRACTION", "SCALE"})
@@ -89,10 +89,10 @@ def _is(clause: Clause, plain: str, name: str, language: str) -> bool:
     said = plain[clause.start : clause.stop].strip()
     # A mark tells a heading from a call; a question is never passed over.
     text = said.rstrip(_MARKS) + (clause.end if clause.end in (":", "!") else "")
-    return clause.end != "?" and any(rule.is_in(text) for rule in _rules(language, name))
+    return clause.end != "?" and _rules(language, name).any_in(text)
 
 
 @cache
-def _rules(language: str, name: str) -> tuple[Rule, ...]:
+def _rules(language: str, name: str) -> Rules:
     table = load_table(language, "set_off")
     return rules(f"set_off_{language}_{name}", [(rule, "") for rule in table[name]], table["parts"])

@@ -17,7 +17,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.normalise import normalise
 from chatrobot.language.quoting import holds_back
 from chatrobot.language.rephrase import rephrased
-from chatrobot.language.rules import Rule, form, rules
+from chatrobot.language.rules import Rules, form, rules
 from chatrobot.language.set_off import is_doubted
 from chatrobot.language.signs import Clause, Sign, clauses_of, is_strong
 from chatrobot.plan.base import Block
@@ -71,11 +71,11 @@ def hardly_ordered(plain: str, language: str) -> bool:
 
 
 def _says(plain: str, language: str, name: str) -> bool:
-    return any(rule.is_in(plain) for rule in _rules(language, name))
+    return _rules(language, name).any_in(plain)
 
 
 @cache
-def _rules(language: str, name: str) -> tuple[Rule, ...]:
+def _rules(language: str, name: str) -> Rules:
     table = load_table(language, "talk")
     return rules(f"talk_{language}_{name}", [(rule, "") for rule in table[name]], table["parts"])
 

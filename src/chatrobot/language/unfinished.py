@@ -11,7 +11,7 @@ from functools import cache
 
 from chatrobot.language.compiled import Key
 from chatrobot.language.data_files import LANGUAGES, load_table
-from chatrobot.language.rules import Rule, form, rules
+from chatrobot.language.rules import Rules, form, rules
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
 
@@ -64,7 +64,11 @@ def check_unconditional(text: str, language: str) -> None:
 
 
 def _check(text: str, language: str, name: str, known: Collection[str] = ()) -> None:
-    found = [part for rule in _rules(language, name) if (part := rule.search(text)) is not None]
+    found = [
+        part
+        for rule in _rules(language, name).that_may_match(text)
+        if (part := rule.search(text)) is not None
+    ]
     named = [span.span() for word in known if found for span in re.finditer(re.escape(word), text)]
     if any(not any(start < part.end() and part.start() < end for start, end in named) for part in found):
         raise Unclear(_ASKED[name], text[:_SHOWN], is_final=name in ("unread", "untaught"))
@@ -80,7 +84,7 @@ def _check_beside_places(text: str, language: str, known: Sequence[str]) -> None
 
 
 @cache
-def _rules(language: str, name: str) -> tuple[Rule, ...]:
+def _rules(language: str, name: str) -> Rules:
     listed = load_table(language, "unfinished").get(name, ())
     parts = load_table(language, "rephrase").get("parts", {})
     return rules(f"unfinished_{language}_{name}", [(rule, "") for rule in listed], parts)
