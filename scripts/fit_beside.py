@@ -23,10 +23,10 @@ from scripts.fit_acts import CORPUS
 
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.language import aside_features
-from chatrobot.language.aside_features import COMMON_WORDS, SLOTS, features, slot_of
-from chatrobot.language.beside import SCALE
+from chatrobot.language.aside_features import COMMON_WORDS, features
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.data_files import DATA, LANGUAGES
+from chatrobot.language.fitted import SCALE, SLOTS, slot_of
 from chatrobot.language.glossed import in_known_words
 from chatrobot.language.normalise import normalise
 from chatrobot.language.set_off import has_amount

@@ -24,10 +24,15 @@ class Conversation:
         self.track = Track()
         self.dialogue = Dialogue()
 
+    @property
+    def context(self) -> Context:
+        """What the next turn is said in."""
+        state = RobotState(pose=self.track.pose, path_m=self.track.path_m, battery_percent=None)
+        return Context(self.dialogue, state)
+
     def say(self, text: str) -> Interpretation:
         """One turn, done at once."""
-        state = RobotState(pose=self.track.pose, path_m=self.track.path_m, battery_percent=None)
-        meant = self.interpreter.interpret(text, Context(self.dialogue, state))
+        meant = self.interpreter.interpret(text, self.context)
         start = self.track.pose
         if meant.plan is not None:
             trial = Track(pose=start)

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import hashlib
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from chatrobot.cli.eval.corpus import Item, load_corpus
+from chatrobot.cli.eval.corpus import Item, Meant, load_corpus
 from chatrobot.cli.eval.judge import misfit
 from chatrobot.cli.eval.measure import ideal
 from chatrobot.plan.base import Step
@@ -108,10 +108,15 @@ def _verdict(text: Text, steps: list[Step], *, declined: bool) -> str:
         return "-"
     if meant.still:
         return "wrong" if any(not isinstance(step, (Say, Wait)) for step in steps) else "correct"
-    numbers = ideal(steps, PROFILE)
-    if numbers is not None and not misfit(meant, _measured(numbers), PROFILE):
+    if is_meant(meant, steps):
         return "correct"
     return "abstained" if declined else "wrong"
+
+
+def is_meant(meant: Meant, steps: Sequence[Step]) -> bool:
+    """Whether these steps, driven perfectly, are what must happen."""
+    numbers = ideal(steps, PROFILE)
+    return numbers is not None and not misfit(meant, _measured(numbers), PROFILE)
 
 
 def _measured(numbers: object) -> Measured:

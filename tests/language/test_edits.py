@@ -147,7 +147,7 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
     ],
 )
 def test_a_change_that_fits_nothing_or_several_is_asked_about(turns: list[str]) -> None:
-    assert done(*turns) in ("unclear", "answered")
+    assert done(*turns).partition(":")[0] in ("unclear", "answered")
 
 
 @pytest.mark.parametrize(

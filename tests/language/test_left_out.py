@@ -8,16 +8,7 @@ from chatrobot.plan.text import parse_plan
 from tests.language.dialogue_runner import Conversation
 
 OFFERED = {
-    "ok bedtime go to your house": 'go to 0 0 named "house"',
-    "hmm too close to my chair come back one": "drive 1 m back",
-    "that made me dizzy now the other way": "drive 1 m back",
-    "oh what fun now half of that": "drive 0.5 m",
-    "do it again for grandpa he missed it": "drive 1 m",
-    "dude my mic was muted go fwd 80cm": "drive 0.8 m",
-    "now half of that backwards the tractor needs by": "drive 0.5 m back",
     "still no lemons: pull back two metres for the wide shot": "drive 2 m back",
-    "还挡着门呢再退二十公分": "drive 0.2 m back",
-    "drei Sekunden vorwärts wir prüfen den Estrich": "drive 3 s",
 }
 SAID = (
     "you drive like my grandma",

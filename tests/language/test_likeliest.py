@@ -42,13 +42,11 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
         ("go forward 3 m at 0.5 m/s yippeekayay", "drive 3 m at 0.5 m/s"),
         ("back up 2 m zorblaxing", "drive 2 m back"),
         ("in that case turn left 90 degrees", "turn left 90 deg"),
-        ("zorblax 2 m forward", "drive 2 m"),
         ("zorblaxing half a metre to the left, and do that twice", "drive 0.5 m left\ndrive 0.5 m left"),
         ("shift her bodily to starboard, 40 cm", "drive 0.4 m right"),
         ("turn right 30 degrees via the frobnicator", "turn right 30 deg"),
         ("turn lest 45 degrees", "turn left 45 deg"),
         ("Wusel dich einen halben Meter nach rechts", "drive 0.5 m right"),
-        ("吭哧吭哧往前一米五", "drive 1.5 m"),
     ],
 )
 def test_a_strange_word_beside_a_whole_order_is_asked_about_with_the_plan(text: str, plan: str) -> None:
@@ -90,12 +88,6 @@ def test_what_is_to_be_changed_is_not_left_out_of_a_proposal() -> None:
     meant = talk.say("again with zorblax doubled")
     assert meant.plan is None
     assert meant.proposal is None
-
-
-def test_what_only_names_the_motion_before_is_left_out_of_a_proposal() -> None:
-    meant = conversation("forward 2 m").say("now half that zorblax, same direction")
-    assert meant.proposal is not None
-    assert meant.proposal.plan_text.strip() == "drive 1 m"
 
 
 @pytest.mark.parametrize(

@@ -6,23 +6,16 @@ for how they end. `so the ? can get by` is the same for a cart and a calf.
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 from chatrobot.language.data_files import DATA
 from chatrobot.language.signs import Clause, Sign, is_strong
 
-SLOTS = 1 << 18
 COMMON_WORDS = DATA / "beside_words.txt"
 """Words that many of the writers use whose sentences the weights are fitted to, one a line."""
 _ENDINGS = ("stqx", "tqx", "enqx", "qx", "ing", "ed", "ly", "er", "est", "s")
 _LEAST_OF_WORD = 2
-
-
-def slot_of(name: str) -> int:
-    """Where the weight of a feature is kept."""
-    return zlib.crc32(name.encode()) & (SLOTS - 1)
 
 
 def features(clauses: Sequence[Clause], i: int, order: int) -> Iterator[str]:
@@ -56,7 +49,7 @@ def features(clauses: Sequence[Clause], i: int, order: int) -> Iterator[str]:
 
 def _of_frame(clause: Clause, side: str, mark: str) -> Iterator[str]:
     """Runs of its common words and of what the others are like, with gaps, and how it begins and ends."""
-    words = ["^", *map(_frame_word, clause.signs), "$"]
+    words = ["^", *map(frame_word, clause.signs), "$"]
     for at in range(len(words) - 1):
         yield f"F2{words[at]} {words[at + 1]}"
         yield f"F3{' '.join(words[at : at + 3])}"
@@ -70,7 +63,8 @@ def _of_frame(clause: Clause, side: str, mark: str) -> Iterator[str]:
     yield from (f"W{side}{word}" for word in words[1:-1])
 
 
-def _frame_word(sign: Sign) -> str:
+def frame_word(sign: Sign) -> str:
+    """The word if many people use it, else its class or how it ends."""
     if sign.text in common_words():
         return sign.text
     if sign.label != sign.text:

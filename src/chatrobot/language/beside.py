@@ -8,21 +8,16 @@ from __future__ import annotations
 
 import itertools
 import math
-import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 from chatrobot.language.acts import MAYBE_ORDER, ORDER, Read, order_log_odds, read_acts, without
-from chatrobot.language.aside_features import features, slot_of
-from chatrobot.language.data_files import DATA
+from chatrobot.language.aside_features import features
+from chatrobot.language.fitted import SCALE, slot_of, weights
 from chatrobot.language.lexicon import Meaning, lexicon
 from chatrobot.language.quoting import names_measure, quotes_ahead, quotes_behind, sentences_of
 from chatrobot.language.set_off import has_amount
 from chatrobot.language.signs import Clause, Names, Sign
-
-SCALE = 24.0
-"""A weight of one is this much in a byte."""
 
 SURE_ASIDE, MAYBE_ASIDE = 0.0, -0.5
 """A clause with higher odds than the first is surely an aside; with higher odds than the second, the order without it
@@ -267,10 +262,5 @@ def any_may_bear(reads: Sequence[Read], left_out: Sequence[Read]) -> bool:
 
 def aside_log_odds(clauses: Sequence[Clause], i: int, order: int) -> float:
     """The odds, as a logarithm, that clause `i` is an aside to the order in clause `order`."""
-    weights = _weights()
-    return sum(weights[slot] for slot in {slot_of(name) for name in features(clauses, i, order)}) / SCALE
-
-
-@lru_cache(maxsize=1)
-def _weights() -> memoryview:
-    return memoryview(zlib.decompress((DATA / "beside.bin").read_bytes())).cast("b")
+    fitted = weights("beside")
+    return sum(fitted[slot] for slot in {slot_of(name) for name in features(clauses, i, order)}) / SCALE

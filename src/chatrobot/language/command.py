@@ -16,12 +16,12 @@ from chatrobot.language.figures import figure_asked, with_another_size, with_sid
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned, stopped
-from chatrobot.language.likeliest import proposed
 from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
 from chatrobot.language.part_changed import part_changed
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places
+from chatrobot.language.proposals import proposed
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.resizing import resized
 from chatrobot.language.selections import (

@@ -15,6 +15,7 @@ from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.last_motion import CURVES
 from chatrobot.language.names import names_in
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
+from chatrobot.language.proposals import proposed
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased, with_breaks
 from chatrobot.language.rules import form
@@ -37,6 +38,7 @@ _UNANSWERED = frozenset(
 """What was said of an order that no word of an answer could complete."""
 _OF_ONE_MOTION = frozenset({"which_side", "which_way", "which_size", "how_long_a_step"})
 """What was asked of an order whose motion is known."""
+_PACES = frozenset({"speed", "rate"})
 _TELLING = frozenset({"q", "num", "dir", "rot", "pace"})
 _MOTION = frozenset(
     {"verb", "dir", "rot", "q", "shape", "place", "number", "negation", "correction", "condition"}
@@ -85,7 +87,12 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
             )
         if found.outcome == "plan":  # what tells nothing of the plan that was asked about is no yes to it
             is_told = any(a.kind in _TELLING or a.kind.startswith("unit") for a in atoms)
-            return found if is_told or found.plan != reading.context.dialogue.offered else None
+            if not is_told and found.plan == reading.context.dialogue.offered:
+                return None
+            told = [atom for atom in atoms if atom.kind in _TELLING]
+            is_pace = bool(told) and all(atom.kind == "pace" or atom.value in _PACES for atom in told)
+            offered = is_pace and reading.context.dialogue.offered
+            return proposed(found, reading.language) if offered else found  # how fast is no yes
     if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)

@@ -15,10 +15,10 @@ from chatrobot.language.data_files import LANGUAGES
 from chatrobot.language.detect import language_of, spoken
 from chatrobot.language.gloss import MARK, Gloss, gloss
 from chatrobot.language.interpretation import Interpretation, LanguageCode, stopped
-from chatrobot.language.likeliest import proposed
 from chatrobot.language.names import names_in
 from chatrobot.language.of_before import told_by_before
 from chatrobot.language.own_words import in_own_words
+from chatrobot.language.proposals import proposed
 from chatrobot.language.things import by_things
 from chatrobot.plan.steps import Plan, Remember, Say, Step
 from chatrobot.plan.text import format_plan, parse_plan

@@ -19,10 +19,10 @@ from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.interpretation import Interpretation, asked_back
 from chatrobot.language.inverse import is_sideways
 from chatrobot.language.last_motion import in_unit_before, said_unit_m
-from chatrobot.language.likeliest import proposed
 from chatrobot.language.normalise import normalise
 from chatrobot.language.part_changed import as_if_done
 from chatrobot.language.phrases import describe_steps, say
+from chatrobot.language.proposals import proposed
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.resizing import resized
 from chatrobot.language.rules import form, forms

@@ -36,13 +36,13 @@ from chatrobot.language.facts import with_known_counts
 from chatrobot.language.forms import read_definition
 from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
-from chatrobot.language.islands import of_islands
 from chatrobot.language.left_out import with_tails_parted
-from chatrobot.language.likeliest import likeliest, proposed
+from chatrobot.language.likeliest import likeliest
 from chatrobot.language.meant import asked_by_remark, says_meant
 from chatrobot.language.misspelt import misspelt_place
 from chatrobot.language.names import names_in
 from chatrobot.language.naming import read_naming, told_what_it_would_do
+from chatrobot.language.nearest import PROPOSED, nearest
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.one_by_one import one_by_one
 from chatrobot.language.phrases import say
@@ -50,6 +50,7 @@ from chatrobot.language.place_questions import answer_about_places, with_spoken_
 from chatrobot.language.pointing import beside_reference
 from chatrobot.language.points import naming_points, with_points
 from chatrobot.language.program_request import read_program_request
+from chatrobot.language.proposals import proposed
 from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
@@ -184,8 +185,12 @@ class OfflineInterpreter:
         pointed = beside_reference(plain, reads, read, read_anew)
         if pointed is not None:
             return pointed
-        found = likeliest(plain, problem, reading, read, read_anew)
-        found = found or of_islands(plain, problem, reading)
+        found = likeliest(plain, problem, reading, read)
+        if found is None or found.plan is None:
+            near = nearest(plain, problem, reading, lambda rest: self.read_order(rest, reading))
+            if near is not None and near.probability >= PROPOSED:
+                sure = near.is_sure and not problem.refused and not calls_somebody(reads, reading.language)
+                found = near.meant if sure else proposed(near.meant, reading.language, near.left_out)
         if found is not None and problem.is_final:
             found = proposed(found, reading.language) or found
         return None if found and not found.plan and calls_somebody(reads, reading.language) else found
@@ -288,6 +293,14 @@ class OfflineInterpreter:
             plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
         )
         return planned(part, language) if part is not None else None
+
+    def read_order(self, text: str, reading: Reading) -> Interpretation:
+        """What a normalised text orders by the rules alone: nothing is left out of it.
+
+        Raises:
+            Unclear: it is not understood.
+        """
+        return self._ordered(text, reading.language, reading.context)
 
     def _steps(self, text: str, language: LanguageCode, context: Context) -> list[Step]:
         meant = self._ordered(text, language, context)

@@ -16,7 +16,6 @@ from chatrobot.language.data_files import relation_words
 from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.heeded import check_heeded
 from chatrobot.language.interpretation import Interpretation, planned
-from chatrobot.language.likeliest import STUMBLED, proposed
 from chatrobot.language.names import names_in
 from chatrobot.language.numbers import FAR_M
 from chatrobot.language.order import in_order
@@ -25,7 +24,7 @@ from chatrobot.language.rephrase import rephrased
 from chatrobot.language.strange_words import may_be_needed
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom, quantity
-from chatrobot.language.unclear import Unclear
+from chatrobot.language.unclear import STUMBLED, Unclear
 from chatrobot.plan.steps import Step
 
 LEAST_ODDS = -1.0
@@ -51,8 +50,8 @@ _WAYS = frozenset({"verb", "dir", "rot", "shape", "pace"})
 _MARKS = " ,.;:!?"
 
 
-def of_islands(plain: str, problem: Unclear, reading: Reading) -> Interpretation | None:
-    """What the words of motion in a normalised text say, proposed; None where that is doubtful or orders nothing.
+def read_islands(plain: str, problem: Unclear, reading: Reading) -> tuple[Interpretation, list[str]] | None:
+    """What the words of motion in a normalised text say, and what was passed over; None where that is doubtful.
 
     `problem` is why the rules did not read it: what contradicts itself, say, is not read otherwise.
     """
@@ -62,7 +61,7 @@ def of_islands(plain: str, problem: Unclear, reading: Reading) -> Interpretation
     if problem.refused or problem.code not in STUMBLED | (set() if may_change else {"no_unit"}):
         return None
     steps, passed_over = _read(plain, rephrased(plain, reading.language), reading)
-    return proposed(planned(steps, reading.language), reading.language, passed_over) if steps else None
+    return (planned(steps, reading.language), passed_over) if steps else None
 
 
 def _read(plain: str, rewritten: str, reading: Reading) -> tuple[list[Step], list[str]]:

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from chatrobot.language.context import Context
 from chatrobot.language.interpretation import Interpretation
-from chatrobot.language.likeliest import offer
 from chatrobot.language.phrases import say
+from chatrobot.language.proposals import offer
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, RawTwist, Repeat, Step
 from chatrobot.robots.profile import RobotProfile
 

@@ -1,25 +1,20 @@
-"""Words that nobody knows within an order: which of them may be left out, each alone or with the small words around it.
+"""Words that nobody knows within an order: whether it may need them.
 
-Left out is only what can hold no part of the order: every number, way and word of motion stays, and so does each word
-that denies, bounds, compares or asks. What follows a number may be its unit, so that nothing is read without it.
+What follows a number may be its unit, and what follows a verb may be what is moved, so that nothing is read without it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from chatrobot.language.data_files import relation_words
 from chatrobot.language.left_out import (
     BEARING,
     COUNTED,
     EXTENTS,
-    MARKS,
     TOLD,
-    Span,
-    extent,
     kind_of,
     names_way,
-    without,
 )
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.signs import BINDING, DEPENDING, Clause, Names, Sign, clauses_of
@@ -28,40 +23,7 @@ _KEPT = (BINDING | DEPENDING | {"report", "sees", "did", "does", "doing", "past"
 """Labels of words that are never left out as words that nobody knows."""
 _BARE = frozenset({"VERB", "PACE"})
 _DOES = frozenset({"DIR", "ROT", "SHAPE", "ROLE", "PER", "FLAG", "MULTIPLE", "FULLTURN"})
-_POINTING = frozenset({"FLAG", "MULTIPLE"})
-"""Labels of words after which a word that nobody knows is the name of what was done: `half that dose`."""
 _MAKE = (("verb", "make"),)
-
-
-def strange_spans(text: str, names: Names, at: range) -> Iterator[Span]:
-    """The word that nobody knows which stands `at` a place: alone, then with the small words around it."""
-    clauses = clauses_of(text, names)
-    clause = next((one for one in clauses if at and one.start <= at.start < one.stop), None)
-    if is_bound(text, names):
-        return
-    signs = clause.signs if clause is not None else ()
-    held = [i for i, sign in enumerate(signs) if at.start <= sign.start < at.stop]
-    if clause is None or not held or not all(_is_light(signs[i]) for i in held):
-        return
-    first, after = held[0], held[-1] + 1
-    if any(sign.label == "contrast" for sign in signs) or _is_needed(signs, first, after):
-        return
-    begin, end = first, after
-    while begin and _is_light(signs[begin - 1]):
-        begin -= 1
-    while end < len(signs) and _is_light(signs[end]):
-        end += 1
-    moving = {sign.label for sign in signs if sign.moves}
-    does = begin or not moving & COUNTED or moving & {"UNIT", "VERB", "SHAPE"}  # not `change step 2`
-    if not does or _is_counted(signs, first) or _is_number(signs, end):
-        return
-    points = bool(begin) and signs[begin - 1].label in _POINTING
-    points &= all(sign.text in relation_words("naming") for sign in signs[begin:first])
-    if all(_is_strange(signs[i], names) for i in held):
-        yield _span(text, clause, first, after, points=points)
-    is_whole = begin == 0 and end == len(signs)
-    if (end - begin > len(held) or is_whole) and not _is_counted(signs, begin):
-        yield _span(text, clause, begin, end, points=points or is_whole)
 
 
 def may_be_needed(clause: Clause, names: Names) -> bool:
@@ -77,11 +39,6 @@ def may_be_needed(clause: Clause, names: Names) -> bool:
             return True
         at = end + 1
     return False
-
-
-def _span(text: str, clause: Clause, begin: int, end: int, *, points: bool = False) -> Span:
-    start, stop = extent(text, clause, begin, end)
-    return Span(without(text, start, stop), text[start:stop].strip(MARKS), points=points)
 
 
 def _is_needed(signs: Sequence[Sign], at: int, after: int) -> bool:
@@ -122,13 +79,6 @@ def _is_of_something_else(signs: Sequence[Sign], at: int) -> bool:
         return lexicon().words.get(tuple(before.text.split("_"))) != _MAKE
     first = next((i for i, sign in enumerate(signs) if sign.label != "opening"), 0)
     return not begin and signs[first].text in relation_words("articles")
-
-
-def _is_counted(signs: Sequence[Sign], at: int) -> bool:
-    """Whether a number stands before it, be it with an article: `half a knot`."""
-    while at and signs[at - 1].label == "NUMBER" and not signs[at - 1].moves:
-        at -= 1
-    return at > 0 and signs[at - 1].moves and signs[at - 1].label in COUNTED
 
 
 def _is_number(signs: Sequence[Sign], at: int) -> bool:

@@ -17,6 +17,10 @@ OF_AN_ORDER = frozenset(
 """What is asked back about an order, and never about a remark: `nice turn` leaves no question open."""
 
 
+STUMBLED = frozenset({"unknown_part", "unclear_motion", "nothing_to_do"})
+"""Why a text was not read, where it may have talk in it that no mark sets off."""
+
+
 class Unclear(Exception):  # noqa: N818 - not an error: the interpreter turns it into a question
     """Raised inside `language` only; `interpret` always turns it into an `unclear` or `refused` answer.
 

@@ -22,9 +22,9 @@ from chatrobot.language.held import (
     may_be_change,
 )
 from chatrobot.language.interpretation import Interpretation, asked_back, planned, taught
-from chatrobot.language.likeliest import offer, proposed
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import say
+from chatrobot.language.proposals import offer, proposed
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
 from chatrobot.language.rules import form

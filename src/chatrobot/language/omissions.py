@@ -1,0 +1,198 @@
+"""Parts of a text without which it may be an order that is understood, the likeliest first.
+
+Each run of words of a clause and each run of whole clauses is tried. How likely one is the right one is the sum of
+weights of what it says, of what stands beside it, and of where the rules stumbled. `nearest.py` reads the rest.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+from chatrobot.language.acts import read_acts
+from chatrobot.language.aside_features import frame_word
+from chatrobot.language.beside import MAYBE_ASIDE, SURELY_NOT_MEANT, asides
+from chatrobot.language.data_files import relation_words
+from chatrobot.language.fitted import SCALE, bucket, slot_of, weights
+from chatrobot.language.left_out import MARKS, without
+from chatrobot.language.signs import Clause, Names, Sign
+from chatrobot.language.unclear import Unclear
+
+MOST_WORDS, MOST_SIGNS = 8, 70
+"""A run within a clause has at most so many words, and a text that is looked at so many."""
+_IDLE = frozenset({"VERB", "PLACE", "COUNTER"})
+"""Labels of words of motion that people say of other things, too; every other one is of the order."""
+_LIGHT = frozenset({"FLAG", "PACE"})
+_BINDS = frozenset({"not", "condition", "correction", "later", "contrast", "hypothetical"})
+"""Labels of words that may change what is meant, but in a clause that is surely an aside."""
+_DECIMAL = re.compile(r"\d[.,]\d")
+"""`2,35 m`: no part ends within a number."""
+_STAYS = ("not", "condition", "question", "correction", "later", "report", "did", "past", "earlier", "hypothetical",
+          "contrast")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Omission:
+    """What is left out, where it begins and ends in which text, and the text without it.
+
+    `slots`: those of its features; `log_odds`: how likely it is the right one; `is_known`: everybody knows its words;
+    `may_matter`: an amount, a way, a condition or another deed may be among them.
+    """
+
+    text: str
+    start: int
+    stop: int
+    rest: str
+    slots: tuple[int, ...]
+    log_odds: float
+    is_known: bool
+    may_matter: bool
+
+    @property
+    def said(self) -> str:
+        return self.text[self.start : self.stop].strip(MARKS)
+
+
+class Unit(NamedTuple):
+    """A word of a text, the clause it stands in, and its place there."""
+
+    sign: Sign
+    clause: Clause
+    at: int
+
+    @property
+    def label(self) -> str:
+        return self.sign.label if self.sign.label != self.sign.text else "?"
+
+
+class _Text:
+    """A text in words, and what its clauses are by themselves."""
+
+    def __init__(self, text: str, problem: Unclear, names: Names) -> None:
+        self.text, self.code = text, problem.code
+        reads = read_acts(text, names)
+        self.units = [
+            Unit(sign, read.clause, at) for read in reads for at, sign in enumerate(read.clause.signs)
+        ]
+        self.labels = ["^", *(unit.label for unit in self.units), "$"]
+        self.words = ["^", *(frame_word(unit.sign) for unit in self.units), "$"]
+        self.odds = {start: aside.odds for start, aside in asides(reads).items()}
+        self.orders = {read.clause.start: read.log_odds for read in reads}
+        self.part = "".join(problem.part.split()).rstrip("…")
+
+    def runs(self) -> Iterator[tuple[int, int]]:
+        """Where each run of words begins and ends that may be left out."""
+        count = len(self.units)
+        begins = [at for at, unit in enumerate(self.units) if unit.at == 0]
+        for begin in range(count):
+            ends = {end for end in (*begins, count) if end > begin} if begin in begins else set()
+            last = begin
+            while (
+                last < min(count, begin + MOST_WORDS) and self.units[last].clause is self.units[begin].clause
+            ):
+                last += 1
+                ends.add(last)
+            yield from ((begin, end) for end in sorted(ends) if end - begin < count)
+
+    def is_end(self, at: int) -> bool:
+        return at == len(self.units) or self.units[at].at == 0
+
+    def extent(self, begin: int, end: int) -> tuple[int, int]:
+        """Where a run stands in the text; with the mark behind it where it is whole clauses."""
+        start, last = self.units[begin].sign.start, self.units[end - 1]
+        if not self.is_end(end):
+            return start, self.units[end].sign.start
+        if self.units[begin].at == 0:
+            return start, last.clause.stop
+        return start, start + len(self.text[start : last.clause.stop].rstrip(MARKS))
+
+    def may_matter(self, begin: int, end: int) -> bool:
+        """Whether a run may say how far, how often, which way, on what terms, or what else: it is part of a clause,
+        or its clauses may bear on the order.
+        """
+        units = self.units[begin:end]
+        moving = {unit.sign.label for unit in units if unit.sign.moves and unit.sign.label.isupper()} - _IDLE
+        bound = moving & _LIGHT or any(unit.sign.label in _BINDS for unit in units)
+        odds = min(self.odds.get(unit.clause.start, 0.0) for unit in units)
+        is_whole = units[0].at == 0 and self.is_end(end)
+        relates = any(unit.at == 0 and unit.sign.text in _relations() for unit in units)  # `to the giraffe`
+        return (
+            not is_whole
+            or relates
+            or bool(moving - _LIGHT)
+            or odds < (SURELY_NOT_MEANT if bound else MAYBE_ASIDE)
+        )
+
+    def features(self, begin: int, end: int) -> Iterator[str]:
+        """What the run from `begin` to `end` is like, in words."""
+        units, labels, words = (
+            self.units[begin:end],
+            self.labels[begin + 1 : end + 1],
+            self.words[begin + 1 : end + 1],
+        )
+        kind = f"{int(units[0].at == 0)}{int(self.is_end(end))}"
+        said = "".join(unit.sign.text for unit in units).replace("_", "")
+        is_hit = bool(self.part) and (self.part in said or said in self.part)
+        moving = sum(unit.sign.moves and unit.sign.label.isupper() for unit in units)
+        yield from (
+            "bias",
+            f"a{kind}",
+            f"n{kind}{min(end - begin, 9)}",
+            f"t{begin == 0}{end == len(self.units)}",
+        )
+        yield from (
+            f"p{is_hit}",
+            f"p{is_hit}{kind}",
+            f"c{self.code}{is_hit}",
+            f"h{is_hit}{min(end - begin, 5)}",
+        )
+        yield from (f"m{min(moving, 4)}", f"v{kind}{min(moving, 2)}")
+        yield from (name for label in labels for name in (f"D{label}", f"E{kind}{label}"))
+        yield from (f"W{word}" for word in words)
+        yield from (f"d{label}" for label in sorted(set(labels)))
+        yield from (f"B{first} {second}" for first, second in itertools.pairwise(words))
+        yield from (f"b{first} {second}" for first, second in itertools.pairwise(labels))
+        for name, row, own in (("", self.labels, labels), ("w", self.words, words)):
+            before, after = row[begin], row[end + 1]
+            yield from (f"L{name}{before}|{own[0]}", f"R{name}{own[-1]}|{after}", f"X{name}{before}|{after}")
+        yield from (f"F{words[0]}", f"G{words[-1]}")
+        if kind == "11":
+            yield from self._of_clauses({unit.clause.start for unit in units}, min(moving, 2))
+        kept = [*self.labels[: begin + 1], *self.labels[end + 1 :]]
+        yield f"k{min(kept.count('?'), 8)}"
+        yield from (f"K{label}" for label in _STAYS if label in kept)
+
+    def _of_clauses(self, starts: set[int], moving: int) -> Iterator[str]:
+        odds = min((self.odds[start] for start in starts if start in self.odds), default=None)
+        if odds is not None:
+            yield from (f"O{bucket(odds)}", f"o{bucket(odds)}{moving}")
+        yield f"I{bucket(max(self.orders[start] for start in starts), 1.5)}"
+
+
+@lru_cache(maxsize=1)
+def _relations() -> frozenset[str]:
+    return relation_words("words") | relation_words("towards")
+
+
+def omissions(text: str, problem: Unclear, names: Names) -> list[Omission]:
+    """What may be left out of a normalised text that raised `problem`, the likeliest first; nothing of a long text."""
+    marked = _Text(text, problem, names)
+    if not 1 < len(marked.units) <= MOST_SIGNS:
+        return []
+    fitted, decimals = weights("omissions"), list(_DECIMAL.finditer(text))
+    best: dict[str, Omission] = {}
+    for begin, end in marked.runs():
+        start, stop = marked.extent(begin, end)
+        if any(found.start() < at < found.end() for found in decimals for at in (start, stop)):
+            continue
+        rest = without(text, start, stop)
+        slots = tuple(slot_of(name) for name in marked.features(begin, end))
+        odds = sum(map(fitted.__getitem__, slots)) / SCALE
+        if len(rest) > 1 and (rest not in best or best[rest].log_odds < odds):
+            known = all(unit.label != "?" for unit in marked.units[begin:end])
+            best[rest] = Omission(text, start, stop, rest, slots, odds, known, marked.may_matter(begin, end))
+    return sorted(best.values(), key=lambda one: -one.log_odds)
