@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import mirrored
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
 from chatrobot.language.inverse import flipped, is_sideways
 from chatrobot.language.last_motion import laps, motion_meant, steps_of
@@ -119,6 +120,13 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     if whole.direction in SIDES and any(isinstance(step, (Turn, Arc)) for step in _leaves(before)):
         whole = whole.copy()  # `the same but right`, of a turn and a drive: of the turn
         whole.rot, whole.direction = whole.rot or whole.direction, ""
+    slid = [is_sideways(step) for step in _leaves(before)]
+    if whole.direction in SIDES and any(slid) and not all(slid):
+        before = (
+            mirrored([*before], whole.direction == "left") or before
+        )  # of what slid and drove: of the slide
+        whole = whole.copy()
+        whole.direction = ""
     if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in _leaves(before)):
         raise Unclear("nothing_before", whole.text)  # `the turn again`, of what drove as well
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0

@@ -306,11 +306,11 @@ def _swapped(steps: list[Step]) -> list[Step] | None:
 
 
 def mirrored(steps: list[Step], left: bool) -> list[Step] | None:
-    """`The same, but turning right`: where all that turned to one side now turn to the other."""
-    turning = [step for step in steps if isinstance(step, (Turn, Arc))]
-    if len({step.left for step in turning}) > 1:
+    """`The same, but turning right`: where all that turned to one side, or slid to it, now does so to the other."""
+    turning = [step.left for step in steps if isinstance(step, (Turn, Arc))]
+    sides = turning or [_heads_left(step) for step in steps if is_sideways(step)]
+    if len(set(sides)) > 1:
         raise Unclear("nothing_before")  # they went to both sides: which is meant?
-    if not turning:
+    if not sides:
         return None
-    flip = turning[0].left != left
-    return [flipped(step) for step in steps] if flip else list(steps)
+    return [flipped(step) for step in steps] if sides[0] != left else list(steps)

@@ -37,12 +37,11 @@ from chatrobot.language.forms import read_definition
 from chatrobot.language.glossed import in_known_words, read_glossed
 from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, stopped
 from chatrobot.language.left_out import with_tails_parted
-from chatrobot.language.likeliest import likeliest
-from chatrobot.language.meant import asked_by_remark, says_meant
+from chatrobot.language.likeliest import likeliest, remarked
+from chatrobot.language.meant import says_meant
 from chatrobot.language.misspelt import misspelt_place
 from chatrobot.language.names import names_in
 from chatrobot.language.naming import read_naming, told_what_it_would_do
-from chatrobot.language.nearest import PROPOSED, nearest
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.one_by_one import one_by_one
 from chatrobot.language.phrases import say
@@ -66,7 +65,7 @@ from chatrobot.language.starting import (
     with_told_apart,
     without_hold,
 )
-from chatrobot.language.talk import calls_somebody, hardly_ordered, may_be_talk, not_ordered
+from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.to_taught import to_taught
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import OF_AN_ORDER, Unclear
@@ -132,7 +131,7 @@ class OfflineInterpreter:
             reading = Reading(language, context, self._profile)
             asked = (
                 misspelt_place(problem, text, reading)
-                or self._remarked(text, reading)
+                or remarked(text, reading, partial(self._interpreted, language=language, context=context))
                 or self._likeliest(problem, text, reading)
             )
             asked = asked or (meant if meant is not None and meant.proposal is not None else None)
@@ -158,16 +157,6 @@ class OfflineInterpreter:
             return amended(change, plan, Reading(language, context, self._profile), meant)
         return None
 
-    def _remarked(self, text: str, reading: Reading) -> Interpretation | None:
-        """What a remark on the turn before asks for, proposed: `oops`, `wrong way`."""
-        turns, order = reading.context.dialogue.turns, asked_by_remark(text, reading.language)
-        if not order or not any(turn.moved for turn in turns[-3:]):  # `faster`, after a `thanks`
-            return None
-        try:
-            return proposed(self._interpreted(order, reading.language, reading.context), reading.language)
-        except Unclear:
-            return None
-
     def _likeliest(self, problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
         def read(part: str, context: Context = reading.context) -> Interpretation:
             return self._interpreted(part, reading.language, context)
@@ -185,15 +174,7 @@ class OfflineInterpreter:
         pointed = beside_reference(plain, reads, read, read_anew)
         if pointed is not None:
             return pointed
-        found = likeliest(plain, problem, reading, read)
-        if found is None or found.plan is None:
-            near = nearest(plain, problem, reading, lambda rest: self.read_order(rest, reading))
-            if near is not None and near.probability >= PROPOSED:
-                sure = near.is_sure and not problem.refused and not calls_somebody(reads, reading.language)
-                found = near.meant if sure else proposed(near.meant, reading.language, near.left_out)
-        if found is not None and problem.is_final:
-            found = proposed(found, reading.language) or found
-        return None if found and not found.plan and calls_somebody(reads, reading.language) else found
+        return likeliest(plain, problem, reading, read, lambda rest: self.read_order(rest, reading))
 
     def _held(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         """A plan that waits for a yes, because it is said to; None where nothing holds it back."""

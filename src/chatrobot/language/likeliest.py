@@ -25,7 +25,9 @@ from chatrobot.language.beside import (
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.last_motion import unit_after
 from chatrobot.language.left_out import leads_amount, may_order
+from chatrobot.language.meant import asked_by_remark
 from chatrobot.language.names import names_in
+from chatrobot.language.nearest import PROPOSED, nearest
 from chatrobot.language.numbers import FAR_M
 from chatrobot.language.pointing import may_change
 from chatrobot.language.proposals import proposed
@@ -33,6 +35,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.set_off import odds_without, set_off
 from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.strange_words import is_bound
+from chatrobot.language.talk import calls_somebody
 from chatrobot.language.typos import neighbours_of
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Turn
@@ -52,11 +55,41 @@ _DECIMAL = re.compile(r"\d*\.?\d+")
 Reader = Callable[[str], Interpretation]
 
 
-def likeliest(plain: str, problem: Unclear, reading: Reading, read: Reader) -> Interpretation | None:
+def likeliest(
+    plain: str, problem: Unclear, reading: Reading, read: Reader, read_order: Reader
+) -> Interpretation | None:
     """What a normalised text most likely means, where `read` raised `problem`; None where it orders nothing.
 
-    Either a plan, or a question that proposes one.
+    Either a plan, or a question that proposes one. `read_order` reads no question, and leaves out talk that is sure.
     """
+    language = reading.language
+    found = _beside_talk(plain, problem, reading, read)
+    near = nearest(plain, problem, reading, read_order) if found is None or found.plan is None else None
+    is_near = near is not None and near.probability >= PROPOSED
+    if found is None and not is_near:
+        return None
+    calls = calls_somebody(read_acts(plain, names_in(reading.context)), language)
+    if near is not None and is_near:
+        is_done = near.is_sure and not problem.refused and not calls
+        found = near.meant if is_done else proposed(near.meant, language, near.left_out)
+    if found is not None and problem.is_final:
+        found = proposed(found, language) or found
+    return None if found is not None and found.plan is None and calls else found
+
+
+def remarked(text: str, reading: Reading, read: Reader) -> Interpretation | None:
+    """What a remark on the turn before asks for, proposed: `oops`, `wrong way`."""
+    turns, order = reading.context.dialogue.turns, asked_by_remark(text, reading.language)
+    if not order or not any(turn.moved for turn in turns[-3:]):  # `faster`, after a `thanks`
+        return None
+    try:
+        return proposed(read(order), reading.language)
+    except Unclear:
+        return None
+
+
+def _beside_talk(plain: str, problem: Unclear, reading: Reading, read: Reader) -> Interpretation | None:
+    """The order beside talk, done or proposed; None where there is none, or it is not read."""
     names, language = names_in(reading.context), reading.language
     reads = read_acts(plain, names)
     if len(reads) > MOST_CLAUSES:

@@ -32,7 +32,7 @@ LEAST_ODDS = -3.0
 """Nothing is read into a text with lower odds of an order."""
 _CLOSED = frozenset({"question_beside"})
 """What is asked about, and not answered by leaving it out."""
-PROPOSED, SURE, SURELY_ORDERED = 0.5, 0.75, 4.75
+PROPOSED, SURE, SURELY_ORDERED = 0.55, 0.75, 4.75
 """A plan with a higher probability than the first is proposed; with a higher one than the second it is done, if the
 text has higher odds of an order than the third, and nothing that may matter is left out."""
 _DIGITS = re.compile(r"\d+")

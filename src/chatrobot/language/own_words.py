@@ -40,7 +40,7 @@ def in_own_words(meant: Interpretation, text: str) -> Interpretation:
     if meant.outcome != "unclear" or meant.code not in _QUOTING or (not part and meant.proposal is not None):
         return meant
     source = normalise(text) if meant.language in LANGUAGES else " ".join(text.split())
-    own = _part_of(source, part, is_reordered=meant.language not in LANGUAGES)
+    own = _as_written(_part_of(source, part, is_reordered=meant.language not in LANGUAGES), text)
     if own == part:
         return meant
     quoted = rf"(?<=[{_OPENING}]){re.escape(part)}(?=[{_CLOSING}])"
@@ -73,6 +73,14 @@ def _part_of(text: str, part: str, *, is_reordered: bool) -> str:
         after = _BREAK.search(text, stop)
         stop = after.start() if after else len(text)
     return text[start:stop].strip(_MARKS)
+
+
+def _as_written(part: str, text: str) -> str:
+    """The part with the capital letters that it has in `text`."""
+    found = (
+        re.search(r"\s+".join(map(re.escape, part.split())), text, re.IGNORECASE) if part.strip() else None
+    )
+    return found[0] if found is not None else part
 
 
 def _beginning(text: str) -> str:
