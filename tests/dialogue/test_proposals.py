@@ -255,7 +255,7 @@ def plan_of_last(talk: Talk) -> str:
     return [event.plan_text for event in talk.events if isinstance(event, Interpreted)][-1]
 
 
-OFFERED = "zorblax turn left 90 and forward 50 cm"
+OFFERED = "turn left 90 and then zorblax 50 cm forward"
 
 
 @pytest.mark.parametrize(

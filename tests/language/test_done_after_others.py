@@ -29,6 +29,12 @@ _SQUARE = "; ".join(["drive 0.5 m; turn left 90 deg"] * 4)
         (("慢速前进两米", "太快了，中等速度退回来"), "drive 2 m back"),
         (("one step is 40 cm", "take five steps forward"), "drive 2 m"),
         (("slide right 40 cm", "turn left", "repeat my very first order"), "drive 0.4 m right"),
+        (("from now on 0.2 m/s", "back to normal", "go 1 m"), "drive 1 m at 0.3 m/s"),
+        (("go 1 m", "ok, slower next time", "go 1 m"), "drive 1 m at 0.15 m/s"),
+        (
+            ("draw a triangle with 40 cm sides", "turn left", "the triangle again"),
+            "; ".join(["drive 0.4 m; turn left 120 deg"] * 3),
+        ),
         (("slide right 40 cm", "turn left", "as in my first message, but to the left"), "drive 0.4 m left"),
         (
             ("slide right 40 cm and then forward 60 cm", "the same but to the left"),

@@ -54,6 +54,7 @@ _REFERENCES = frozenset(
 ) | {("verb", "undo")}
 _RETURN, _LEADING = ("verb", "return"), frozenset({("verb", "return"), ("verb", "go")})
 _OF_THE_START = frozenset({"did", "other", "robot"})
+_OF_FIGURES = frozenset({"other"})
 _TO_A_PLACE = frozenset({"to", "other"})
 _POLITE = frozenset({"please", "opening", "robot", "request"})
 _BOUND = frozenset({"condition", "later"})
@@ -211,7 +212,10 @@ def refers(clause: Clause) -> bool:
         return bool(said) and all(_LEADING & {*meaning} for meaning in said) and beside <= _TO_A_PLACE
     if moving and moving[0] is clause.signs[0] and _RETURN in said[0] and len(moving) == 1:
         return "did" in beside <= _OF_THE_START  # `back to where you started`
-    return bool(said) and all(_is_reference(meaning) for meaning in said) and not beside
+    figures = [any(kind == "shape" for kind, _ in meaning) for meaning in said]  # `the triangle again`
+    references = [_is_reference(meaning) for meaning in said]
+    named = _OF_FIGURES if any(figures) else frozenset[str]()
+    return any(references) and all(map(max, references, figures)) and beside <= named
 
 
 def _is_reference(meaning: Meaning) -> bool:

@@ -53,8 +53,9 @@ class Candidate:
     passed_over: tuple[str, ...] = ()
 
     @property
-    def log_odds(self) -> float:
-        return sum(one.log_odds for one in self.left_out)
+    def left_out_count(self) -> int:
+        """How many characters are left out, or passed over."""
+        return sum(len(one.said) for one in self.left_out) or sum(map(len, self.passed_over))
 
 
 @dataclass(frozen=True)
@@ -89,11 +90,12 @@ def nearest(text: str, problem: Unclear, reading: Reading, read: Reader) -> Near
         shares[one.plan_text] += math.exp(score - top)
     whole = sum(shares.values()) + math.exp(none - top)
     best = max(shares, key=lambda plan_text: shares[plan_text])
-    chosen = max((one for one in found if one.plan_text == best), key=lambda one: one.log_odds)
+    same = [one for one in found if one.plan_text == best]
+    safe = [one for one in same if one.left_out and not any(part.may_matter for part in one.left_out)]
+    chosen = min(safe or same, key=lambda one: one.left_out_count)
     said = tuple(one.said for one in chosen.left_out) or chosen.passed_over
     probability = shares[best] / whole
-    is_sure = probability >= SURE and ordered >= SURELY_ORDERED and problem.code in STUMBLED
-    is_sure &= bool(chosen.left_out) and not any(part.may_matter for part in chosen.left_out)
+    is_sure = probability >= SURE and ordered >= SURELY_ORDERED and problem.code in STUMBLED and bool(safe)
     return Nearest(chosen.meant, said, probability, is_sure)
 
 
