@@ -29,6 +29,8 @@ _SQUARE = "; ".join(["drive 0.5 m; turn left 90 deg"] * 4)
         (("慢速前进两米", "太快了，中等速度退回来"), "drive 2 m back"),
         (("one step is 40 cm", "take five steps forward"), "drive 2 m"),
         (("slide right 40 cm", "turn left", "repeat my very first order"), "drive 0.4 m right"),
+        (("turn right", "oh damn, left"), "turn left 180 deg"),
+        (("dreh dich nach rechts", "ach Mist, links"), "turn left 180 deg"),
         (("from now on 0.2 m/s", "back to normal", "go 1 m"), "drive 1 m at 0.3 m/s"),
         (("go 1 m", "ok, slower next time", "go 1 m"), "drive 1 m at 0.15 m/s"),
         (

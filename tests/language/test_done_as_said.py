@@ -13,6 +13,9 @@ _TWO_STAIRS = "drive 0.3 m; drive 0.2 m left; drive 0.3 m; drive 0.2 m left"
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        (("stand 20 cm further left",), "drive 0.2 m left"),
+        (("Könntest du nicht ein Stück weiter links stehen?",), "drive 0.25 m left"),
+        (("Stell dich 20 cm weiter nach links",), "drive 0.2 m left"),
         (("turn left and then right",), "turn left 90 deg; turn right 90 deg"),
         (("原地转五圈！往左边转！",), "turn left 1800 deg"),
         (("do one full circle going round to your left, 60 cm radius",), "arc left 360 deg radius 0.6 m"),
