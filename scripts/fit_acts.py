@@ -14,6 +14,7 @@ import itertools
 import random
 import re
 import sys
+import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,8 +32,9 @@ from tests.language.test_sayings import sayings
 
 from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.language import interpreter
-from chatrobot.language.acts import SCALE, SLOTS, features, slot_of
+from chatrobot.language.acts import SLOTS, features
 from chatrobot.language.data_files import DATA, LANGUAGES
+from chatrobot.language.fitted import SCALE, slot_of
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.normalise import normalise
 from chatrobot.language.signs import clauses_of
@@ -192,7 +194,7 @@ class Rows:
                 unsure = not clause.moves or (clause.talks and moving > 1 and not is_frame)
                 if example.orders and moving and unsure and not beside:
                     continue  # which clause of a real sentence orders nobody has marked
-                slots.append([slot_of(name) for name in features(clauses, i)])
+                slots.append([slot_of(name, SLOTS) for name in features(clauses, i)])
                 self.label.append(example.orders and not beside)
                 self.weight.append(example.weight)
                 self.of.append(number)
@@ -233,7 +235,8 @@ def read(weights: np.ndarray, given: list[Example]) -> list[float]:
 
 
 def quantised(weights: np.ndarray) -> bytes:
-    return np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8).tobytes()
+    """What the file of these weights holds."""
+    return zlib.compress(np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8).tobytes(), 9)
 
 
 def report(name: str, given: list[Example], odds: list[float]) -> None:

@@ -19,14 +19,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scripts.fit_acts import CORPUS
+from scripts.fit_acts import CORPUS, quantised
 
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.language import aside_features
 from chatrobot.language.aside_features import COMMON_WORDS, features
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.data_files import DATA, LANGUAGES
-from chatrobot.language.fitted import SCALE, SLOTS, slot_of
+from chatrobot.language.fitted import SLOTS, slot_of
 from chatrobot.language.glossed import in_known_words
 from chatrobot.language.normalise import normalise
 from chatrobot.language.set_off import has_amount
@@ -198,8 +198,7 @@ def main() -> None:
         check(given, slots)
         return
     weights = fit(given, slots)
-    rounded = np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8)
-    (DATA / "beside.bin").write_bytes(zlib.compress(rounded.tobytes(), 9))
+    (DATA / "beside.bin").write_bytes(quantised(weights))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import random
 import sys
-import zlib
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -19,14 +18,15 @@ from multiprocessing import Pool
 from unittest import mock
 
 import numpy as np
-from scripts.fit_acts import CORPUS
+from scripts.fit_acts import CORPUS, quantised
 from tests.language import ledger
 from tests.language.dialogue_runner import Conversation
 
 from chatrobot.cli.eval.corpus import Item, load_corpus
 from chatrobot.language import fitted
+from chatrobot.language.acts import read_acts
 from chatrobot.language.data_files import DATA
-from chatrobot.language.fitted import SCALE, SLOTS
+from chatrobot.language.fitted import SLOTS
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.names import names_in
@@ -152,14 +152,14 @@ def part_choice(said: Said) -> Choice | None:
     return Choice(slots, right) if any(right) else None
 
 
-def plan_choice(said: Said) -> tuple[Choice, list[str]] | None:
-    """Which plan is meant, if any, and the plans; None where none is read."""
+def plan_choice(said: Said) -> Choice | None:
+    """Which plan is meant, if any; None where none is read."""
     found = candidates(said.text, said.problem, said.reading, said.read)
     if not found:
         return None
     right = [said.is_right(one.meant.plan) for one in found if one.meant.plan is not None]
-    none = text_slots(said.text, said.problem, said.names)
-    return Choice(choice_slots(found, said.names), right, none), [one.plan_text for one in found]
+    none = text_slots(read_acts(said.text, said.names), said.problem)
+    return Choice(choice_slots(found, said.names), right, none)
 
 
 def fit(choices: Sequence[Choice], penalty: float) -> np.ndarray:
@@ -195,14 +195,10 @@ def _shares(odds: np.ndarray, of: np.ndarray, is_open: np.ndarray) -> np.ndarray
 
 def learnt(given: Sequence[Said]) -> tuple[bytes, bytes]:
     """The weights of both choices, as bytes; those of the first are in use from then on."""
-    ranked = _as_bytes(fit([choice for said in given if (choice := part_choice(said))], RANK_PENALTY))
+    ranked = quantised(fit([choice for said in given if (choice := part_choice(said))], RANK_PENALTY))
     use("omissions", ranked)
-    plans = [found[0] for said in given if (found := plan_choice(said))]
-    return ranked, _as_bytes(fit(plans, CHOICE_PENALTY))
-
-
-def _as_bytes(weights: np.ndarray) -> bytes:
-    return zlib.compress(np.clip(np.rint(weights * SCALE), -127, 127).astype(np.int8).tobytes(), 9)
+    plans = [choice for said in given if (choice := plan_choice(said))]
+    return ranked, quantised(fit(plans, CHOICE_PENALTY))
 
 
 def use(name: str, content: bytes) -> None:
@@ -236,7 +232,7 @@ def check(given: Sequence[Said]) -> None:
 
 def main() -> None:
     kept = {name: (DATA / f"{name}.bin").read_bytes() for name in ("omissions", "nearest")}
-    use("omissions", _as_bytes(np.zeros(SLOTS)))  # what is learned does not depend on what was
+    use("omissions", quantised(np.zeros(SLOTS)))  # what is learned does not depend on what was
     with Pool() as pool:
         read = pool.imap(said_of, list(items()), chunksize=16)
         given = [said for said in read if said is not None]

@@ -77,6 +77,15 @@ def conversation(*turns: str) -> Conversation:
     return talk
 
 
+def check_nothing_done(*turns: str) -> None:
+    """Assert that the last of these turns is asked about, answered or refused, and teaches nothing."""
+    meant = conversation(*turns[:-1]).say(turns[-1])
+    assert meant.outcome in ("unclear", "answered", "refused")
+    assert meant.plan is None
+    assert not meant.remember_place
+    assert not meant.define
+
+
 def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
     """The verdict on one corpus item and why."""
     talk = Conversation()

@@ -16,7 +16,7 @@ else:
 
 from chatrobot.cli.eval.corpus import load_corpus
 from chatrobot.language.acts import SLOTS, features, orders, read_acts, talk_in
-from chatrobot.language.data_files import DATA
+from chatrobot.language.fitted import weights
 from chatrobot.language.lexicon import lexicon
 from chatrobot.language.normalise import normalise
 from chatrobot.language.signs import clauses_of
@@ -155,7 +155,7 @@ def test_a_word_of_this_dialogue_is_one_of_motion() -> None:
 
 
 def test_weights_are_few_and_the_features_of_a_clause_are_the_same_each_time() -> None:
-    assert len((DATA / "acts.bin").read_bytes()) == SLOTS <= 120_000
+    assert len(weights("acts")) == SLOTS <= 120_000
     clauses = clauses_of("he said you are right, so go forward 1 m")
     assert sorted(features(clauses, 1)) == sorted(features(clauses, 1))
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from chatrobot.language.data_files import in_full, load_table
 from chatrobot.language.normalise import normalise
-from chatrobot.language.rules import needed_by
+from chatrobot.language.rules import Rule, Rules, needed_by
 
 CORPUS = Path(__file__).parents[1] / "corpus"
 
@@ -81,3 +81,22 @@ def test_it_holds_for_any_pattern(pattern: str, text: str) -> None:
     if re.search(pattern, text):
         needed = needed_by(pattern)
         assert not needed or any(word in text for word in needed)
+
+
+WORDS = st.sampled_from(["ab", "cd", "de", "前1"])
+LISTED = st.lists(st.tuples(st.one_of(WORDS, PIECES), WORDS), max_size=8)
+
+
+@given(LISTED, st.text("abcdexy.前 1", max_size=20))
+def test_rules_that_are_passed_over_would_change_nothing(listed: list[tuple[str, str]], text: str) -> None:
+    one_by_one = text
+    for pattern, said in listed:
+        one_by_one = re.sub(pattern, said, one_by_one)
+    rules = Rules([Rule(pattern, said, tuple(needed_by(pattern))) for pattern, said in listed])
+    assert rules.applied(text) == one_by_one
+
+
+@given(st.lists(PIECES, min_size=1, max_size=8), st.text("abcdexy.前 1", max_size=20))
+def test_any_rule_that_matches_is_found(patterns: list[str], text: str) -> None:
+    rules = Rules([Rule(pattern, "", tuple(needed_by(pattern))) for pattern in patterns])
+    assert rules.any_in(text) == any(re.search(pattern, text) for pattern in patterns)

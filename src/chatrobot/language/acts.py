@@ -8,12 +8,12 @@ fitted by scripts/fit_acts.py and kept in `data/acts.bin`, one byte a slot; a fe
 from __future__ import annotations
 
 import itertools
-import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from chatrobot.language.data_files import DATA, LANGUAGES, load_table
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.fitted import SCALE, slot_of, weights
 from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
 
 SLOTS = 1 << 16
@@ -30,8 +30,6 @@ _DOES = frozenset({"VERB", "DIR"})
 _TELLING = frozenset({"verdict", "mine"})
 _DOERS = frozenset({"kin", "later"})
 _LOOKS_BACK = 3
-SCALE = 24.0
-"""A weight of one is this much in a byte."""
 
 
 @dataclass(frozen=True)
@@ -44,11 +42,11 @@ class Read:
 
 def read_acts(text: str, names: Names = ()) -> list[Read]:
     """Each clause of a normalised text with its odds."""
-    weights = _weights()
+    fitted = weights("acts")
     clauses = clauses_of(text, names)
     reads: list[Read] = []
     for i, clause in enumerate(clauses):
-        odds = sum(weights[slot_of(name)] for name in features(clauses, i)) / SCALE
+        odds = sum(fitted[slot_of(name, SLOTS)] for name in features(clauses, i)) / SCALE
         if i and clause.goes_on and clauses[i - 1].tells_of_before and not is_strong(clauses[i - 1].end):
             odds = min(odds, reads[-1].log_odds)  # `you went to the sofa, then to the kitchen`
         reads.append(Read(clause, odds))
@@ -148,11 +146,6 @@ def _statements(reads: Sequence[Read]) -> list[Read]:
     return found
 
 
-def slot_of(name: str) -> int:
-    """Where the weight of a feature is kept."""
-    return zlib.crc32(name.encode()) & (SLOTS - 1)
-
-
 def features(clauses: Sequence[Clause], i: int) -> Iterator[str]:
     """The features of one clause among its neighbours."""
     clause = clauses[i]
@@ -217,9 +210,3 @@ def _around(clauses: Sequence[Clause], i: int) -> Iterator[str]:
                 yield f"{side}m{_mark(clauses[k])}{label}"
     for label in {sign.label for clause in clauses[max(i - _LOOKS_BACK, 0) : i] for sign in clause.signs}:
         yield f"a{label}"
-
-
-@lru_cache(maxsize=1)
-def _weights() -> tuple[int, ...]:
-    data = (DATA / "acts.bin").read_bytes()
-    return tuple(byte - 256 if byte > 127 else byte for byte in data)

@@ -22,7 +22,7 @@ def features(clauses: Sequence[Clause], i: int, order: int) -> Iterator[str]:
     """The features of clause `i` beside clause `order`."""
     clause = clauses[i]
     signs = clause.signs
-    labels = ["^", *(sign.label if sign.label != sign.text else "?" for sign in signs), "$"]
+    labels = ["^", *(sign.known_label for sign in signs), "$"]
     texts = ["^", *(sign.text for sign in signs), "$"]
     side = "<" if i < order else ">"
     mark = "." if is_strong(clause.end) and clause.end != "?" else clause.end

@@ -5,14 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import mirrored
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
-from chatrobot.language.inverse import flipped, is_sideways
+from chatrobot.language.inverse import flipped, is_sideways, leaves_of
 from chatrobot.language.last_motion import laps, motion_meant, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import whole_number
@@ -117,17 +117,8 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     whole = _round_other_way(before, whole)
     _check_other_way(before, whole)
     before, whole = _mirrored(before, whole)
-    if whole.direction in SIDES and any(isinstance(step, (Turn, Arc)) for step in _leaves(before)):
-        whole = whole.copy()  # `the same but right`, of a turn and a drive: of the turn
-        whole.rot, whole.direction = whole.rot or whole.direction, ""
-    slid = [is_sideways(step) for step in _leaves(before)]
-    if whole.direction in SIDES and any(slid) and not all(slid):
-        before = (
-            mirrored([*before], whole.direction == "left") or before
-        )  # of what slid and drove: of the slide
-        whole = whole.copy()
-        whole.direction = ""
-    if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in _leaves(before)):
+    before, whole = _of_sided_part(before, whole)
+    if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in leaves_of(before)):
         raise Unclear("nothing_before", whole.text)  # `the turn again`, of what drove as well
     factor = whole.q["scale"].number if "scale" in whole.q else 1.0
     if "percent" in whole.q and not whole.pace:
@@ -138,7 +129,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     factors = _factors(before, whole, factor)
     if "number" in whole.q or "count" in whole.q or "clock" in whole.q:
         raise Unclear("no_unit", next(whole.q[n].text for n in ("number", "count", "clock") if n in whole.q))
-    ahead_rad = next((step.direction_rad for step in _leaves(before) if isinstance(step, Drive)), 0.0)
+    ahead_rad = next((step.direction_rad for step in leaves_of(before) if isinstance(step, Drive)), 0.0)
     steps = [_step(step, whole, factors, pace, ahead_rad) for step in before]
     if factor != 1.0 and steps == list(before):  # `half the angle`, of what never turned
         raise Unclear("nothing_before", whole.text)
@@ -156,21 +147,13 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
 
 def _factors(steps: Sequence[Step], whole: Frame, factor: float) -> Factors:
     """`Twice as big`: distances and radii; the angles of a motion that only turned, or where the angle is named."""
-    only_turned = all(isinstance(step, (Turn, Wait)) for step in _leaves(steps))
+    only_turned = all(isinstance(step, (Turn, Wait)) for step in leaves_of(steps))
     scale = whole.q.get("scale")
     if scale is not None and any(word in scale.text for word in ("angle", "角")):
         return Factors(1.0, factor)
     if only_turned or factor == 1.0:
         return Factors(factor, factor)
     return Factors(factor, 1.0)
-
-
-def _leaves(steps: Sequence[Step]) -> Iterator[Step]:
-    for step in steps:
-        if isinstance(step, Repeat):
-            yield from _leaves(step.steps)
-        else:
-            yield step
 
 
 def _round_other_way(steps: Sequence[Step], whole: Frame) -> Frame:
@@ -188,7 +171,7 @@ def _check_other_way(steps: Sequence[Step], whole: Frame) -> None:
     Raises:
         Unclear: for the opposite of drives and turns together.
     """
-    kinds = {isinstance(step, Drive) for step in _leaves(steps) if not isinstance(step, Wait)}
+    kinds = {isinstance(step, Drive) for step in leaves_of(steps) if not isinstance(step, Wait)}
     is_opposite = "other_way" in whole.flags and "mirrored" not in whole.flags and not whole.has_extent
     if is_opposite and len(kinds) > 1:
         raise Unclear("unclear_motion", whole.text)
@@ -206,12 +189,27 @@ def _mirrored(steps: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Fram
     if out == list(steps):
         raise Unclear("nothing_before", whole.text)
     side = whole.rot or whole.direction
-    turning = [step for step in _leaves(out) if isinstance(step, (Turn, Arc))]
+    turning = [step for step in leaves_of(out) if isinstance(step, (Turn, Arc))]
     if side and (not turning or any(step.left != (side == "left") or side not in SIDES for step in turning)):
         raise Unclear("contradiction", whole.text)
     whole.rot = whole.direction = ""
     whole.flags -= {"mirrored", "other_way"}
     return out, whole
+
+
+def _of_sided_part(before: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Frame]:
+    """`The same but right`, of a turn and a drive: of the turn; of a slide and a drive: of the slide."""
+    if whole.direction not in SIDES:
+        return before, whole
+    leaves = list(leaves_of(before))
+    if any(isinstance(step, (Turn, Arc)) for step in leaves):
+        whole = whole.copy()
+        whole.rot, whole.direction = whole.rot or whole.direction, ""
+    elif any(map(is_sideways, leaves)) and not all(map(is_sideways, leaves)):
+        before = mirrored([*before], whole.direction == "left") or before
+        whole = whole.copy()
+        whole.direction = ""
+    return before, whole
 
 
 def _speed_said(whole: Frame, steps: Sequence[Step]) -> Frame:

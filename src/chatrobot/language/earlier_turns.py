@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -74,30 +76,38 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     amended = with_answered_amount(before, plain, reading)
     if amended is not None:
         return amended
-    sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
-    for joined in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
-        try:
-            check_consistent(joined, reading.language)
-            found = read_command(joined, reading)
-        except Unclear:
-            continue
-        if found.plan is not None and _goes_on(found.plan, reading.context.dialogue.offered):
-            return (
-                None  # `forward 2 m, perfect`, which was asked about, then `turn left`: no yes to the first
-            )
-        if found.outcome == "plan":  # what tells nothing of the plan that was asked about is no yes to it
-            is_told = any(a.kind in _TELLING or a.kind.startswith("unit") for a in atoms)
-            if not is_told and found.plan == reading.context.dialogue.offered:
-                return None
-            told = [atom for atom in atoms if atom.kind in _TELLING]
-            is_pace = bool(told) and all(atom.kind == "pace" or atom.value in _PACES for atom in told)
-            offered = is_pace and reading.context.dialogue.offered
-            return proposed(found, reading.language) if offered else found  # how fast is no yes
+    joined = _joined(pending, before, plain, reading)
+    if joined is not None:
+        return _without_yes(joined, atoms, reading)
     if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
         # What it is the side of was not understood: to turn there is no answer.
         raise Unclear("no_unit", pending)
     _ask_again(before, plain, reading)
     return None
+
+
+def _joined(pending: str, before: str, plain: str, reading: Reading) -> Interpretation | None:
+    """The plan of what was asked about and the answer together; None where they are none."""
+    sided = rephrased(with_side(normalise(pending), plain, reading.language), reading.language)
+    for text in filter(None, (sided, f"{before} {plain}", f"{before}, {plain}")):
+        with contextlib.suppress(Unclear):
+            check_consistent(text, reading.language)
+            found = read_command(text, reading)
+            if found.outcome == "plan":
+                return found
+    return None
+
+
+def _without_yes(found: Interpretation, atoms: Sequence[Atom], reading: Reading) -> Interpretation | None:
+    """The plan that an answer completes, as far as the answer is no yes to what was offered."""
+    offered = reading.context.dialogue.offered
+    if found.plan is None or _goes_on(found.plan, offered):
+        return None  # `forward 2 m, perfect`, which was asked about, then `turn left`: no yes to the first
+    if found.plan == offered and not any(a.kind in _TELLING or a.kind.startswith("unit") for a in atoms):
+        return None  # what tells nothing of it is no yes
+    told = [atom for atom in atoms if atom.kind in _TELLING]
+    is_pace = bool(told) and all(atom.kind == "pace" or atom.value in _PACES for atom in told)
+    return proposed(found, reading.language) if offered and is_pace else found  # nor is how fast
 
 
 def _ask_again(before: str, plain: str, reading: Reading) -> None:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from chatrobot.language.context import Dialogue
 from chatrobot.language.edit_words import ROUND, SCALES, Edit, read_edit
 from chatrobot.language.frames import DIRECTIONS, SIDES
-from chatrobot.language.inverse import flipped, inverse, is_sideways
+from chatrobot.language.inverse import flipped, inverse, is_sideways, leaves_of
 from chatrobot.language.last_motion import (
     motion_meant,
     said_unit_m,
@@ -307,8 +307,9 @@ def _swapped(steps: list[Step]) -> list[Step] | None:
 
 def mirrored(steps: list[Step], left: bool) -> list[Step] | None:
     """`The same, but turning right`: where all that turned to one side, or slid to it, now does so to the other."""
-    turning = [step.left for step in steps if isinstance(step, (Turn, Arc))]
-    sides = turning or [_heads_left(step) for step in steps if is_sideways(step)]
+    leaves = list(leaves_of(steps))
+    turning = [step.left for step in leaves if isinstance(step, (Turn, Arc))]
+    sides = turning or [_heads_left(step) for step in leaves if is_sideways(step)]
     if len(set(sides)) > 1:
         raise Unclear("nothing_before")  # they went to both sides: which is meant?
     if not sides:

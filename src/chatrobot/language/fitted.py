@@ -8,13 +8,14 @@ from functools import lru_cache
 from chatrobot.language.data_files import DATA
 
 SLOTS = 1 << 18
+"""So many weights has a file, but for those that tell another number."""
 SCALE = 24.0
 """A weight of one is this much in a byte."""
 
 
-def slot_of(name: str) -> int:
-    """Where the weight of a feature is kept."""
-    return zlib.crc32(name.encode()) & (SLOTS - 1)
+def slot_of(name: str, slots: int = SLOTS) -> int:
+    """Where the weight of a feature is kept, among so many. `slots` is a power of two."""
+    return zlib.crc32(name.encode()) & (slots - 1)
 
 
 def bucket(value: float, width: float = 1.0) -> int:

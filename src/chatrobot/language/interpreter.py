@@ -132,9 +132,9 @@ class OfflineInterpreter:
             asked = (
                 misspelt_place(problem, text, reading)
                 or remarked(text, reading, partial(self._interpreted, language=language, context=context))
+                or (meant if meant is not None and meant.proposal is not None else None)
                 or self._likeliest(problem, text, reading)
             )
-            asked = asked or (meant if meant is not None and meant.proposal is not None else None)
             asked = asked or asked_back(problem, told_in(text, language, context), context.dialogue.last_text)
             return replace(asked, corrects=says_meant(text))
 

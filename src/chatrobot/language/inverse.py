@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Iterator, Sequence
 
 from chatrobot.language.frames import DIRECTIONS
 from chatrobot.language.unclear import Unclear
@@ -40,6 +41,15 @@ def _undone(step: Step, speed_mps: float | None) -> list[Step]:
     if isinstance(step, (Wait, Say, Remember)):
         return []
     raise Unclear("cannot_undo")
+
+
+def leaves_of(steps: Sequence[Step]) -> Iterator[Step]:
+    """The steps, and of a repeat those that are repeated."""
+    for step in steps:
+        if isinstance(step, Repeat):
+            yield from leaves_of(step.steps)
+        else:
+            yield step
 
 
 def flipped(step: Step) -> Step:

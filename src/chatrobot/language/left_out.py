@@ -76,7 +76,7 @@ def _stands_behind(signs: Sequence[Sign], before: Sequence[Sign]) -> bool:
     if not before:
         return True
     named = before[-1].label in _POINTING and signs[0].text in relation_words("articles") and len(signs) < 3
-    is_part = named or _leads(signs[0]) or _goes_on(signs[0]) or _is_meant(signs) or signs[0].label == "did"
+    is_part = named or relates(signs[0]) or _goes_on(signs[0]) or _is_meant(signs) or signs[0].label == "did"
     return before[-1].label in _CLOSES and not is_part
 
 
@@ -90,7 +90,7 @@ def _first_verb(signs: Sequence[Sign]) -> int:
     return next((i for i, sign in enumerate(signs) if sign.moves and sign.label in ("VERB", "PLACE")), -1)
 
 
-def _leads(sign: Sign) -> bool:
+def relates(sign: Sign) -> bool:
     """Whether it says how the motion before lies to something: `past the fern`, `via the hall`."""
     return sign.text in _relations()
 
@@ -100,8 +100,8 @@ def _relations() -> frozenset[str]:
     return relation_words("words") | relation_words("towards") | relation_words("restricting")
 
 
-def odds_set_off(text: str, names: Names, start: int, stop: int) -> tuple[float, float]:
-    """The odds of an aside and of an order of part of a text, as if marks set it off."""
+def odds_set_off(text: str, names: Names, start: int, stop: int) -> float:
+    """The odds of an aside of part of a text, as if marks set it off."""
     head, said, rest = text[:start].rstrip(" ,"), text[start:stop].strip(" ,"), text[stop:].lstrip(" ,")
     before = "" if not head else " " if head[-1] in MARKS else ", "
     after = "" if not rest or rest[0] in MARKS or said[-1] in MARKS else ","
@@ -109,17 +109,7 @@ def odds_set_off(text: str, names: Names, start: int, stop: int) -> tuple[float,
     reads = read_acts(f"{head}{before}{said}{after} {rest}".strip(), names)
     read = next((read for read in reads if read.clause.start <= at < read.clause.stop), None)
     aside = asides(reads).get(read.clause.start) if read is not None else None
-    return (aside.odds, read.log_odds) if read is not None and aside is not None else (BEARS, 0.0)
-
-
-def extent(text: str, clause: Clause, begin: int, end: int) -> tuple[int, int]:
-    """Where those signs of a clause begin and end in the text; with its mark where nothing else is left of it."""
-    start = clause.signs[begin].start
-    is_end = end == len(clause.signs)
-    stop = clause.stop if is_end else clause.signs[end].start
-    if is_end and begin:
-        stop = start + len(text[start:stop].rstrip(MARKS))
-    return start, stop
+    return aside.odds if aside is not None else BEARS
 
 
 def without(text: str, start: int, stop: int) -> str:

@@ -13,7 +13,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from chatrobot.language.acts import order_log_odds, read_acts
+from chatrobot.language.acts import Read, order_log_odds, read_acts
 from chatrobot.language.fitted import SCALE, bucket, slot_of, weights
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.islands import read_islands
@@ -71,7 +71,8 @@ class Nearest:
 def nearest(text: str, problem: Unclear, reading: Reading, read: Reader) -> Nearest | None:
     """The likeliest plan of a normalised text that raised `problem`; None where no part of it is an order."""
     names = names_in(reading.context)
-    ordered = order_log_odds(read_acts(text, names))
+    reads = read_acts(text, names)
+    ordered = order_log_odds(reads)
     if problem.code in _CLOSED or ordered < LEAST_ODDS:
         return None
     found = candidates(text, problem, reading, read)
@@ -83,7 +84,7 @@ def nearest(text: str, problem: Unclear, reading: Reading, read: Reader) -> Near
         return sum(map(fitted.__getitem__, slots)) / SCALE
 
     scores = [odds(slots) for slots in choice_slots(found, names)]
-    none = odds(text_slots(text, problem, names))
+    none = odds(text_slots(reads, problem))
     top = max(*scores, none)
     shares: defaultdict[str, float] = defaultdict(float)
     for one, score in zip(found, scores):
@@ -155,7 +156,7 @@ def choice_slots(found: Sequence[Candidate], names: Names) -> list[tuple[int, ..
                 f"N{bucket(_number_count(one.left_out[-1].rest) - _number_count(one.plan_text))}",
                 f"M{bucket(sum(len(part.said) for part in one.left_out) - fewest, 5.0)}",
                 *(
-                    f"A{bucket(odds_set_off(part.text, names, part.start, part.stop)[0])}"
+                    f"A{bucket(odds_set_off(part.text, names, part.start, part.stop))}"
                     for part in one.left_out
                 ),
             ]
@@ -173,11 +174,10 @@ def _number_count(text: str) -> int:
     return len(_DIGITS.findall(text))
 
 
-def text_slots(text: str, problem: Unclear, names: Names) -> tuple[int, ...]:
+def text_slots(reads: Sequence[Read], problem: Unclear) -> tuple[int, ...]:
     """The slots of the features that tell that no candidate is meant."""
-    reads = read_acts(text, names)
     signs = [sign for read in reads for sign in read.clause.signs]
-    labels = {sign.label if sign.label != sign.text else "?" for sign in signs}
+    labels = {sign.known_label for sign in signs}
     told = [
         "none",
         f"0c{problem.code}",

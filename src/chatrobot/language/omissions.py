@@ -10,15 +10,13 @@ import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 from chatrobot.language.acts import read_acts
 from chatrobot.language.aside_features import frame_word
 from chatrobot.language.beside import MAYBE_ASIDE, SURELY_NOT_MEANT, asides
-from chatrobot.language.data_files import relation_words
 from chatrobot.language.fitted import SCALE, bucket, slot_of, weights
-from chatrobot.language.left_out import MARKS, without
+from chatrobot.language.left_out import MARKS, relates, without
 from chatrobot.language.signs import Clause, Names, Sign
 from chatrobot.language.unclear import Unclear
 
@@ -64,10 +62,6 @@ class Unit(NamedTuple):
     clause: Clause
     at: int
 
-    @property
-    def label(self) -> str:
-        return self.sign.label if self.sign.label != self.sign.text else "?"
-
 
 class _Text:
     """A text in words, and what its clauses are by themselves."""
@@ -78,7 +72,7 @@ class _Text:
         self.units = [
             Unit(sign, read.clause, at) for read in reads for at, sign in enumerate(read.clause.signs)
         ]
-        self.labels = ["^", *(unit.label for unit in self.units), "$"]
+        self.labels = ["^", *(unit.sign.known_label for unit in self.units), "$"]
         self.words = ["^", *(frame_word(unit.sign) for unit in self.units), "$"]
         self.odds = {start: aside.odds for start, aside in asides(reads).items()}
         self.orders = {read.clause.start: read.log_odds for read in reads}
@@ -119,10 +113,10 @@ class _Text:
         bound = moving & _LIGHT or any(unit.sign.label in _BINDS for unit in units)
         odds = min(self.odds.get(unit.clause.start, 0.0) for unit in units)
         is_whole = units[0].at == 0 and self.is_end(end)
-        relates = any(unit.at == 0 and unit.sign.text in _relations() for unit in units)  # `to the giraffe`
+        is_related = any(unit.at == 0 and relates(unit.sign) for unit in units)  # `to the giraffe`
         return (
             not is_whole
-            or relates
+            or is_related
             or bool(moving - _LIGHT)
             or odds < (SURELY_NOT_MEANT if bound else MAYBE_ASIDE)
         )
@@ -173,11 +167,6 @@ class _Text:
         yield f"I{bucket(max(self.orders[start] for start in starts), 1.5)}"
 
 
-@lru_cache(maxsize=1)
-def _relations() -> frozenset[str]:
-    return relation_words("words") | relation_words("towards")
-
-
 def omissions(text: str, problem: Unclear, names: Names) -> list[Omission]:
     """What may be left out of a normalised text that raised `problem`, the likeliest first; nothing of a long text."""
     marked = _Text(text, problem, names)
@@ -193,6 +182,6 @@ def omissions(text: str, problem: Unclear, names: Names) -> list[Omission]:
         slots = tuple(slot_of(name) for name in marked.features(begin, end))
         odds = sum(map(fitted.__getitem__, slots)) / SCALE
         if len(rest) > 1 and (rest not in best or best[rest].log_odds < odds):
-            known = all(unit.label != "?" for unit in marked.units[begin:end])
+            known = all(unit.sign.known_label != "?" for unit in marked.units[begin:end])
             best[rest] = Omission(text, start, stop, rest, slots, odds, known, marked.may_matter(begin, end))
     return sorted(best.values(), key=lambda one: -one.log_odds)

@@ -67,6 +67,11 @@ class Sign(NamedTuple):
     start: int
     is_name: bool = False
 
+    @property
+    def known_label(self) -> str:
+        """Its class; `?` of a word that stands for itself."""
+        return self.label if self.label != self.text else "?"
+
 
 @dataclass(frozen=True)
 class Clause:
