@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 from tests.dialogue.talk import Talk, said_while_moving
 
-from chatrobot.core.events import Interpreted, TruePose
+from chatrobot.core.events import Interpreted, Rehearsed, TruePose
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.options import Options
 from chatrobot.link.envelope import QUEUE_LIMIT
 from chatrobot.link.in_process import InProcessLink
 
@@ -193,3 +194,39 @@ def test_wheels_that_spin_are_noticed_as_far_as_the_docs_say(
     """The first is no promise, only the truth about odometry: who mends it rewrites docs/simulation.md."""
     result = Talk(sim=lie).session.do(text)
     assert (result.outcome, said in result.reply) == (outcome, True)
+
+
+def test_what_is_not_understood_while_the_robot_drives_says_that_it_goes_on() -> None:
+    talk = said_while_moving("forward 5 m", "my cat is called Tom")
+    assert talk.results()[2].reply.endswith("“forward 5 m” goes on.")
+    assert talk.results()[1].outcome == "completed"
+    assert "goes on" not in talk.session.do("my cat is called Tom").reply
+
+
+@pytest.mark.parametrize("word", ["no", "不"])
+def test_a_no_to_a_plan_that_waits_declines_it_and_stops_nothing(word: str) -> None:
+    talk = Talk(options=Options(approve=True))
+    talk.session.say("forward 1 m")
+    talk.pump_until(lambda: any(isinstance(event, Rehearsed) for event in talk.events))
+    talk.session.say(word)
+    talk.pump_until(lambda: len(talk.results()) == 2)
+    assert talk.results()[2].outcome == "answered"
+    assert (talk.results()[1].path_m or 0.0) == 0.0
+
+
+def test_a_no_while_a_plan_that_was_agreed_to_is_driven_stops_it() -> None:
+    talk = Talk(options=Options(approve=True))
+    talk.session.say("forward 5 m")
+    talk.pump_until(lambda: any(isinstance(event, Rehearsed) for event in talk.events))
+    talk.session.say("yes")
+    talk.pump_until_moving()
+    talk.session.say("no")
+    talk.pump_until(lambda: 1 in talk.results())
+    assert talk.results()[1].outcome == "stopped"
+
+
+def test_no_remark_teaches_a_place_to_mean_a_motion() -> None:
+    talk = Talk(world="home")
+    for said in ("the kitchen is to the left", "the kitchen is to your left", "kitchen means turn left"):
+        assert talk.session.do(said).outcome == "unclear"
+    assert talk.session.do("the zorb is to turn left").outcome == "answered"

@@ -56,7 +56,14 @@ class Conversation:
         self.track.places.clear()
         outcome: Any = {"plan": "completed", "stop": "stopped"}.get(meant.outcome, meant.outcome)
         record = TurnRecord(
-            text, outcome, meant.plan, start, self.track.pose, executed=meant.plan, walk=meant.walk
+            text,
+            outcome,
+            meant.plan,
+            start,
+            self.track.pose,
+            executed=meant.plan,
+            walk=meant.walk,
+            corrects=meant.corrects,
         )
         self.dialogue = Dialogue(
             (*self.dialogue.turns, record),

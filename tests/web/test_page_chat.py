@@ -182,6 +182,28 @@ def test_a_page_that_comes_later_sees_what_was_said(page: Page, rig: WebRig, bro
     later.context.close()
 
 
+def test_how_a_turn_ended_is_told_below_what_was_said_meanwhile(page: Page, rig: WebRig) -> None:
+    say(page, rig, "forward 1 m")
+    rig.tell(Interpreted(1, "offline", "drive 1 m", "drive forward 1 m"))
+    say(page, rig, "my cat is called Tom")
+    rig.tell(Result(2, "unclear", "I found no motion in that."))
+    rig.tell(Result(1, "completed", "Done: drove 1.00 m."))
+    expect(page.locator("#turns > li").last).to_contain_text("Done: drove 1.00 m.")
+    expect(page.locator("#turns > li", has_text="drive forward 1 m")).to_have_count(1)
+
+
+def test_ones_own_texts_stay_ones_own_when_the_page_is_loaded_again(
+    page: Page, rig: WebRig, browser: Browser
+) -> None:
+    say(page, rig, "forward 1 m")
+    page.reload()
+    mine = page.locator("#turns .you", has_text="forward 1 m")
+    expect(mine).to_have_text("forward 1 m")
+    other = open_page(browser, rig.origin)
+    expect(other.locator("#turns .you .who")).to_have_count(1)
+    other.context.close()
+
+
 # --- plan, gauges, programs ---
 
 

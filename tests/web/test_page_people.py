@@ -56,7 +56,10 @@ def test_two_tabs_one_steers_and_taking_over_is_shown_to_both(
     expect(page.locator("#steering-state")).to_have_text("You steer")
     expect(second.locator("#watching-banner")).to_contain_text("You watch; take over to steer.")
     expect(second.get_by_role("button", name="Send")).to_be_disabled()
+    second.set_viewport_size({"width": 390, "height": 844})
+    assert second.evaluate("document.querySelector('.top').scrollWidth") <= 390
     second.get_by_role("button", name="Take over").click()
+    second.set_viewport_size({"width": 1280, "height": 800})
     expect(second.locator("#steering-state")).to_have_text("You steer")
     expect(page.locator("#notice-banner")).to_contain_text("has taken over steering. You watch now.")
     expect(page.get_by_role("button", name="Take over")).to_be_visible()

@@ -58,6 +58,7 @@ def test_what_a_card_says_and_asks_moves_no_button(pupils: RunningClass, teacher
         "say", text="go to the moon, then to the kitchen of my aunt, and tell everybody there what you saw"
     )
     expect(teacher.locator(".seat .doing").first).not_to_be_empty()
+    expect(teacher.locator(".seat .heard").first).to_contain_text("go to the moon")
     one.say("emergency_stop")
     teacher.get_by_role("button", name="New link: Pupil 3").click()
     expect(teacher.get_by_role("button", name="End the old link?: Pupil 3")).to_be_visible()

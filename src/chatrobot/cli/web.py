@@ -25,6 +25,7 @@ from chatrobot.cli.signals import SignalWatch
 from chatrobot.compose import Connection, Setup
 from chatrobot.core.errors import LinkError, UsageError
 from chatrobot.core.events import Event, Notice, TruePose
+from chatrobot.core.reason import Reason
 from chatrobot.dialogue.pump import Pump
 from chatrobot.language.data_files import REPLY_LANGUAGES
 from chatrobot.language.phrases import render_reason
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
     from chatrobot.web.server import WebServer
 
 PORT, MOST_TRIED = 8080, 20
+_ANYWHERE = ("0.0.0.0", "::")
+"""Hosts that listen at every address of this machine."""
 Sockets = tuple[socket.socket, socket.socket]
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]{4,128}")
 
@@ -169,6 +172,10 @@ def _hear(room: Room, lesson: RoomLesson | None, event: Event) -> None:
         return
     if isinstance(event, Notice) and event.reason.code.startswith("recording"):
         print(render_reason(event.reason, language_of_environment()), flush=True)
+        if event.reason.code == "recording":  # who has a page needs no path of this machine
+            event = Notice(
+                event.turn, Reason("recording_here", {"file": Path(str(event.reason.values["path"])).name})
+            )
     room.hear(event)
     if lesson is not None:
         lesson.hear(event)
@@ -272,17 +279,23 @@ def _tell(
     from chatrobot.web.words import web_words
 
     language = language_of_environment()
-    name = _reachable(args.host)
     path = "teacher" if args.pupils else ""
-    links = [f"{access.origin(name)}/{path}#{token}" for token in access.tokens] or [
-        f"{access.origin(name)}/"
-    ]
+
+    def links_by(name: str) -> list[str]:
+        return [f"{access.origin(name)}/{path}#{token}" for token in access.tokens] or [
+            f"{access.origin(name)}/"
+        ]
+
+    links = links_by(_reachable(args.host))
+    here = links_by("127.0.0.1")[0] if args.host in _ANYWHERE else links[0]
     print(web_words(language, "teacher_address" if args.pupils else "address", url=links[0]), flush=True)
     if access.needs_token:
         import segno
 
         if sys.stdout.isatty():
             segno.make(links[0], error="m").terminal(compact=True)
+        if here != links[0]:
+            print(web_words(language, "local_address", url=here), flush=True)
         if not args.pupils:
             print(web_words(language, "watch_address", url=links[1]), flush=True)
     if sheet is not None:
@@ -292,7 +305,7 @@ def _tell(
         pattern = recordings.folder / "…_class_pupil_….mcap"
         print(web_words(language, "class_recorded", path=pattern), flush=True)
     if not args.no_open:
-        _open(links[0])
+        _open(here)
 
 
 def _open(link: str) -> None:
@@ -308,7 +321,7 @@ def _open(link: str) -> None:
 
 def _reachable(host: str) -> str:
     """Return the name by which another machine reaches a server that listens there."""
-    if host in ("0.0.0.0", "::"):
+    if host in _ANYWHERE:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, contextlib.suppress(OSError):
             probe.connect(("10.255.255.255", 9))  # asks for the way there; sends nothing
             return str(probe.getsockname()[0])

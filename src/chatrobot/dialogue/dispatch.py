@@ -218,6 +218,8 @@ class Dispatch:
         elif self._goals.options.rehearse_only and (meant.remember_place or meant.renamed):
             told = say(meant.language, "only_rehearsed")
             meant = replace(meant, reply=told, remember_place="", renamed={})
+        elif paused is None and meant.outcome == "unclear" and meant.proposal is None:
+            meant = self._beside_what_runs(meant)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(utterance.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -244,6 +246,14 @@ class Dispatch:
             self._link.send("obstacle", remove=thing.name)
         else:
             self._link.send("obstacle", add=thing.name, circle=[*thing.at_m, OBSTACLE_RADIUS_M])
+
+    def _beside_what_runs(self, meant: Interpretation) -> Interpretation:
+        """`I did nothing`, said while the robot drives: what it does goes on."""
+        running = self._requests.first_with_motion
+        if running is None:
+            return meant
+        told = say(meant.language, "drives_on", text=running[1].text)
+        return replace(meant, reply=f"{meant.reply} {told}")
 
     def _told_under_way(self, meant: Interpretation) -> str:
         """The motion that runs and what is left of it; an empty string where no plan of ours runs."""

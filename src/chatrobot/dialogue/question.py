@@ -86,10 +86,12 @@ class Proposals:
         self._rehearsed, self._asked_at_s = Question(), 0.0
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
+        self._driving: frozenset[int] = frozenset()
 
     def declines_motion(self, text: str) -> bool:
-        """Return whether `text` says no to what moves, and not to an offer. From any thread."""
-        return self._offered is None and read_consent(text) is False
+        """Return whether `text` says no to what moves, and not to an offer, or a plan that waits. From any thread."""
+        is_asked = self._offered is not None or (self._rehearsed.turn is not None and not self._driving)
+        return not is_asked and read_consent(text) is False
 
     def hear(self, event: Event) -> None:
         """Keep the plan that a result offers; drop it when something moves.
@@ -112,6 +114,10 @@ class Proposals:
                 self._offered = self._offered._replace(approval=approval, is_placed=True)
         elif isinstance(event, Started):
             self._offered = None
+        if isinstance(event, Started):
+            self._driving |= {event.turn}
+        elif isinstance(event, Finished):
+            self._driving -= {event.turn}
 
     def awaits(self, utterance: Utterance) -> bool:
         """Return whether it answers a rehearsed plan that waits for a yes, and was said after the question."""

@@ -273,7 +273,15 @@ class Understanding:
             self._learn(meant)
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
         told = describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
-        record = TurnRecord(text, outcome, plan, walk=meant.walk, program=program_number, told=told)
+        record = TurnRecord(
+            text,
+            outcome,
+            plan,
+            walk=meant.walk,
+            program=program_number,
+            told=told,
+            corrects=meant.corrects,
+        )
         self._note_end(record, finished)
         if outcome == "refused":  # `no, 2 m` changes what could not be done
             self._dialogue = replace(self._dialogue, offered=meant.plan)
@@ -306,7 +314,9 @@ class Understanding:
     def _as_if_done(self, instruction: Instruction) -> TurnRecord:
         text, meant, start = instruction
         plan, pose = meant.plan, self._state.pose
-        return TurnRecord(text, "completed", plan, start, pose, executed=plan, walk=meant.walk)
+        return TurnRecord(
+            text, "completed", plan, start, pose, plan, walk=meant.walk, corrects=meant.corrects
+        )
 
     def _note_end(self, record: TurnRecord, finished: Finished | None) -> None:
         """Enter a turn into the ledger; one that Motion has ended, as it was measured."""

@@ -18,6 +18,7 @@ from chatrobot.language.forms import read_definition
 from chatrobot.language.inverse import is_sideways
 from chatrobot.language.last_motion import atoms_said, laps, shapes_said
 from chatrobot.language.ledger import TurnRecord
+from chatrobot.language.meant import as_put_right
 from chatrobot.language.normalise import normalise
 from chatrobot.language.questions import is_question
 from chatrobot.language.rephrase import in_full
@@ -48,6 +49,8 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
                 if not rule.said:
                     raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
                 plain = rule.applied(plain)
+    if _rules(language, "means", "again").any_in(plain):
+        return plain, replace(context, dialogue=as_put_right(dialogue))
     for kind in _MEANT:
         if _rules(language, "means", kind).any_in(plain):
             return plain, replace(context, dialogue=_of_kind(kind, plain, dialogue))
@@ -195,6 +198,12 @@ def _has_moved(dialogue: Dialogue) -> bool:
     return dialogue.last_motion is not None
 
 
+def _was_ordered(dialogue: Dialogue) -> bool:
+    """Whether the last motion was an order of its own, and no undo of another."""
+    last = dialogue.last_motion
+    return last is not None and last.walk is None
+
+
 def _looks_aside(dialogue: Dialogue) -> bool:
     """Whether it looks another way than in the beginning."""
     last = dialogue.last_motion
@@ -213,6 +222,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "drive": _only(Drive),
     "place": _only(Go),
     "turn": _only(Turn),
+    "curve": _only(Arc),
     "turning": _turns_last,
     "slide": _is_slide,
     "aslant": _is_aslant,
@@ -226,6 +236,8 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "not_straight": _not_straight,
     "aside": _looks_aside,
     "just": lambda dialogue: dialogue.turns[-1].plan is not None,
+    "turns": lambda dialogue: len(dialogue.ledger.done) > 1,
+    "own": _was_ordered,
     "moved": _has_moved,
 }
 

@@ -44,7 +44,7 @@ def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     a_bit = whole.flags in ({"bit"}, {"bit", "more"}) and whole.verb in ("", "go", "shift") and not whole.rot
     if not a_bit or whole.direction not in SIDES:
         return None
-    bit = a_bit_of(steps_of(last), whole, pace)
+    bit = a_bit_of(context.dialogue, whole, pace)
     return [replace(bit, direction_rad=DIRECTIONS[whole.direction])] if isinstance(bit, Drive) else None
 
 

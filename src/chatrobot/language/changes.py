@@ -13,7 +13,7 @@ from chatrobot.language.edit_words import Edit
 from chatrobot.language.edits import mirrored
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, TURN, Frame
 from chatrobot.language.inverse import flipped, is_sideways, leaves_of
-from chatrobot.language.last_motion import laps, motion_meant, steps_of
+from chatrobot.language.last_motion import atoms_said, laps, motion_meant, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.measures import whole_number
 from chatrobot.language.numbers import is_chinese
@@ -116,6 +116,7 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
         whole.q[name] = quantity(name, fold.number, fold.text)
     whole = _round_other_way(before, whole)
     _check_other_way(before, whole)
+    before = _taking(before, whole)
     before, whole = _mirrored(before, whole)
     before, whole = _of_sided_part(before, whole)
     if whole.verb in TURN and not all(isinstance(step, (Turn, Arc, Wait)) for step in leaves_of(before)):
@@ -174,7 +175,21 @@ def _check_other_way(steps: Sequence[Step], whole: Frame) -> None:
     kinds = {isinstance(step, Drive) for step in leaves_of(steps) if not isinstance(step, Wait)}
     is_opposite = "other_way" in whole.flags and "mirrored" not in whole.flags and not whole.has_extent
     if is_opposite and len(kinds) > 1:
-        raise Unclear("unclear_motion", whole.text)
+        raise Unclear("nothing_before", whole.text)
+
+
+def _taking(steps: Sequence[Step], whole: Frame) -> Sequence[Step]:
+    """`10 degrees the other way`, after a drive and a turn: of the last of them, if it is the one that takes it.
+
+    Raises:
+        Unclear: it takes no such amount.
+    """
+    if "other_way" not in whole.flags or not whole.has_extent or len(steps) < 2:
+        return steps
+    takers = Drive if "length" in whole.q else (Turn, Arc) if {"angle", "turns"} & set(whole.q) else Step
+    if not isinstance(steps[-1], takers):
+        raise Unclear("nothing_before", whole.text)
+    return steps[-1:]
 
 
 def _mirrored(steps: Sequence[Step], whole: Frame) -> tuple[Sequence[Step], Frame]:
@@ -299,15 +314,21 @@ def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
     return pace.speed(whole)
 
 
-def a_bit_of(steps: Sequence[Step], whole: Frame, pace: Pace) -> Step:
-    """`a bit more`: the last motion's way, a little."""
+def a_bit_of(dialogue: Dialogue, whole: Frame, pace: Pace) -> Step:
+    """`a bit more`: the last motion's way, a little; as much as before where that was a bit, too.
+
+    Raises:
+        Unclear: the last motion was more than one drive or turn.
+    """
+    last = dialogue.last_motion
+    steps = steps_of(last)
     step = steps[-1]
+    was_bit = last is not None and any(atom.value == "bit" for atom in atoms_said(last.text))
+    part = 0.5 if "bit" in whole.flags and not was_bit else 1.0
     if len(steps) == 1 and isinstance(step, Drive):
-        bit_m = min(pace.distance_m / 2, step.distance_m or math.inf)  # no more than there was
+        bit_m = min(pace.distance_m / 2, part * (step.distance_m or math.inf))  # no more than there was
         return dataclasses.replace(step, distance_m=bit_m, duration_s=None)
     if len(steps) == 1 and isinstance(step, Turn):
-        bit_rad = pace.turn_rad / 2
-        if step.angle_rad is not None and step.angle_rad < bit_rad:  # `a bit more` is less than there was
-            bit_rad = step.angle_rad / 2 if "bit" in whole.flags else step.angle_rad
+        bit_rad = min(pace.turn_rad / 2, part * (step.angle_rad or math.inf))
         return dataclasses.replace(step, angle_rad=bit_rad, duration_s=None)
     raise Unclear("nothing_before", whole.text)

@@ -247,7 +247,7 @@ def _more_of_before(whole: Frame, context: Context, pace: Pace) -> list[Step] | 
     on = "more" in whole.flags or any(text.endswith(("more", "further", "farther")) for text in whole.texts)
     alone = whole.flags == {"more"} and whole.texts == ["more"]  # `further` is a way of its own
     if on and ("bit" in whole.flags or alone) and whole.flags <= {"bit", "more"} and not whole.roles:
-        return [a_bit_of(steps_of(context.dialogue.last_motion), whole, pace)]
+        return [a_bit_of(context.dialogue, whole, pace)]
     return None
 
 

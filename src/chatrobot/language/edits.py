@@ -149,7 +149,10 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
     if flags & {"same_amount", "overshot"} or points_back:
         return _at_its_pace(edit, steps, scale)
     if edit.instead is not None and "again" in flags:
-        return _replaced(steps, edit.amounts[0], edit.instead)
+        replaced = _replaced(steps, edit.amounts[0], edit.instead)
+        if replaced is None:
+            raise Unclear("nothing_before")  # nothing of it was so much
+        return replaced
     if scale is not None and "amounts" in flags:
         return [_scaled(step, scale.number) for step in steps]
     if flags == {"again", "more"} and len(edit.amounts) == 1 and not edit.way and scale is None:

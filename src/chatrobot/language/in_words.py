@@ -13,10 +13,12 @@ from chatrobot.language.earlier_turns import (
 )
 from chatrobot.language.facts import told_of_units
 from chatrobot.language.interpretation import Interpretation, taught
+from chatrobot.language.lexicon import cut
+from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
-from chatrobot.language.selections import speed_for_all
+from chatrobot.language.selection_forms import speed_for_all
 from chatrobot.language.things import check_counted
 from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
@@ -64,6 +66,8 @@ def _at_one_speed(plain: str, reading: Reading) -> Interpretation | None:
 
 
 def _defined(definition: forms.Definition, reading: Reading) -> Interpretation:
+    if names_in(reading.context).get(cut(definition.name), (("", ""),))[0][0] == "place":
+        raise Unclear("word_is_place", definition.name, is_final=True)  # `kitchen means turn left`
     inner = read_command(definition.body, reading)
     if inner.plan is None:
         return inner

@@ -105,7 +105,10 @@ class OfflineInterpreter:
         try:
             said, context = as_meant_after(with_told_apart(whole, language), language, context)
         except Unclear as problem:
-            return asked_back(problem, language)
+            read = partial(self._interpreted, language=language, context=context)
+            return remarked(whole, Reading(language, context, self._profile), read) or asked_back(
+                problem, language
+            )
         said = to_taught(said, language, context)
         text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)

@@ -43,7 +43,7 @@ class TurnRecord:
     `executed` and `remaining` are the parts of the plan that were driven and were not, as measured. `lost` is the
     code of the reason why nobody can tell any more how the robot gets back to where the turn began. `program`: a
     program drove, which the session keeps under that number; 0 for none. `duration_s` is None where nobody timed it.
-    `told` is how its end was told, with what was measured.
+    `told` is how its end was told, with what was measured. `corrects`: it put the turn before right.
     """
 
     text: str
@@ -58,6 +58,7 @@ class TurnRecord:
     program: int = 0
     duration_s: float | None = None
     told: str = ""
+    corrects: bool = False
 
     @property
     def way(self) -> Way:

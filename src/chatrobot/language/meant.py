@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
 
-from chatrobot.language.context import Context
+from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.corrections import CORRECTING, MEANT, corrected
 from chatrobot.language.data_files import expand, load_table
 from chatrobot.language.frames import GO, SIDES, TURN, Frame
@@ -20,7 +20,7 @@ from chatrobot.language.rules import Rules, rules
 from chatrobot.language.tokens import Atom, tokenise
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.undo import taken_back
-from chatrobot.plan.steps import Arc, Drive, Face, Go, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Step, Turn
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -138,7 +138,27 @@ def _in_one(first: Step, then: Step) -> Step | None:
 
 def is_correction(record: TurnRecord | None) -> bool:
     """Whether a turn put the one before right: what it did is then not what was meant by it."""
-    return record is not None and says_meant(record.text)
+    return record is not None and (record.corrects or says_meant(record.text))
+
+
+def as_put_right(dialogue: Dialogue) -> Dialogue:
+    """The last motion and what it put right as one motion: `turn left 45`, `I meant right`, `again`.
+
+    The dialogue as it is where nothing was put right, or the two are no single motion.
+    """
+    moved = [turn for turn in dialogue.turns if turn.moved and turn.plan is not None]
+    count = 0
+    while count < len(moved) and is_correction(moved[-1 - count]):
+        count += 1
+    if not count or count == len(moved):
+        return dialogue
+    line = [step for turn in moved[-1 - count :] if turn.plan is not None for step in turn.plan.steps]
+    while len(line) > 1 and (both := _in_one(line[0], line[1])) is not None:
+        line[:2] = [both]
+    if len(line) > 1:
+        return dialogue
+    whole = replace(moved[-1 - count], plan=Plan((line[0],)), executed=Plan((line[0],)))
+    return replace(dialogue, turns=(*dialogue.turns, whole))
 
 
 def asked_by_remark(text: str, language: str) -> str:

@@ -147,7 +147,7 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
     """The answer in words; says so where something is not known."""
     if topic in _MEASURED and unknown_pose(context):
         return say(language, unknown_pose(context))
-    if topic in ("why", "done", "done_before", "understood"):
+    if topic in _OF_TURNS:
         return _told_of(topic, language, context.dialogue)
     if topic == "last" and not context.dialogue.turns:
         return say(language, "answer_nothing_done")
@@ -224,16 +224,20 @@ def _last_speeds(context: Context, profile: RobotProfile) -> dict[str, float]:
     return told
 
 
+_OF_TURNS = {"why": -1, "done": -1, "done_before": -2, "done_first": 0, "understood": -1}
+"""What is told of one turn, and of which."""
+
+
 def _told_of(topic: str, language: str, dialogue: Dialogue) -> str:
-    """How the last turn was understood or ended, or what the last motion did, or the one before it."""
+    """How the last turn was understood or ended, or what the last, the last but one, or the first motion did."""
     asked = topic in ("why", "understood")
     turns = [
         turn for turn in dialogue.turns if (turn.outcome != "answered" if asked else turn.plan and turn.told)
     ]
-    back = 2 if topic == "done_before" else 1
-    if len(turns) < back:
+    at = _OF_TURNS[topic]
+    if not -len(turns) <= at < len(turns):
         return say(language, "answer_nothing_done")
-    turn = turns[-back]
+    turn = turns[at]
     if topic == "understood" and turn.plan is not None:
         return say(language, "answer_understood", last=turn.text, text=describe_plan(turn.plan, language))
     return say(language, "answer_done", last=turn.text, told=turn.told)

@@ -7,10 +7,8 @@ instead. The same file has the words by which an amount or a shape takes the pla
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cache
-from typing import Any
 
 from chatrobot.language.context import Dialogue
 from chatrobot.language.data_files import load_table
@@ -21,7 +19,7 @@ from chatrobot.language.last_motion import atoms_said, laps, motion_meant, shape
 from chatrobot.language.measures import whole_number
 from chatrobot.language.rephrase import plain_text
 from chatrobot.language.resizing import resized
-from chatrobot.language.rules import Form, forms_of
+from chatrobot.language.selection_forms import forms, number_said
 from chatrobot.language.step_kinds import is_of_kind, kind_named, places_of
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
@@ -56,7 +54,7 @@ def selected(
 
 def pointed_at(plain: str, language: str) -> re.Match[str] | None:
     """Where a normalised text points at a part of what was done, and wants it again."""
-    return next(filter(None, (form.search(plain) for form in _forms(language))), None)
+    return next(filter(None, (form.search(plain) for form in forms(language))), None)
 
 
 def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) -> list[Step]:
@@ -67,7 +65,7 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
     """
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = kind_named(said.get("kind", ""), language)
-    at, count = _number(said, "nth", table), _number(said, "count", table) or 1
+    at, count = number_said(said, "nth", table), number_said(said, "count", table) or 1
     units = _units(dialogue, kind, language, with_corners=kind == "leg" and count > 1)
     last = dialogue.last_motion
     if kind in ("step", "move") and last is not None and len(shapes_said(last.text)) > 1:
@@ -99,7 +97,8 @@ def part_of_before(
         Unclear: there is no such part.
     """
     return (
-        to_earlier_pose(plain, language, dialogue)
+        everything(plain, language, dialogue)
+        or to_earlier_pose(plain, language, dialogue)
         or left_out(plain, language, dialogue)
         or further(plain, language, dialogue)
         or with_part_resized(plain, language, dialogue, atoms_of)
@@ -110,10 +109,25 @@ def part_of_before(
 
 def wants_part(plain: str, language: str) -> bool:
     """Whether a normalised text is wholly one of these wishes, so that it orders something, whatever it leaves out."""
-    names = ("forms", *_WITHOUT, "resized", "listed", "further")
+    names = ("everything", "forms", *_WITHOUT, "resized", "listed", "further")
     return names_earlier_pose(plain, language) or any(
-        form.fullmatch(plain.strip(" .!")) for name in names for form in _forms(language, name)
+        form.fullmatch(plain.strip(" .!")) for name in names for form in forms(language, name)
     )
+
+
+def everything(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
+    """`Repeat everything so far`: each motion that was not undone, in order; None where there are not several.
+
+    Raises:
+        Unclear: nobody can tell how one of them went.
+    """
+    done = dialogue.ledger.done
+    if len(done) < 2 or not any(form.fullmatch(plain) for form in forms(language, "everything")):
+        return None
+    steps = [step for entry in done for step in entry.way or ()]
+    if not all(entry.way for entry in done):
+        raise Unclear("nothing_before", plain[:60])
+    return steps
 
 
 def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
@@ -122,15 +136,15 @@ def left_out(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None
     Raises:
         Unclear: there is no such part, there are several, or nothing would be left.
     """
-    forms = [form for name in _WITHOUT for form in _forms(language, name)]
-    found = next(filter(None, (form.fullmatch(plain) for form in forms)), None)
+    leaving = (form for name in _WITHOUT for form in forms(language, name))
+    found = next(filter(None, (form.fullmatch(plain) for form in leaving)), None)
     last = motion_meant(dialogue) if found is not None else None
     if last is None or last.plan is None or found is None:
         return None
     table, said, steps = load_table(language, "selections"), found.groupdict(default=""), last.plan.steps
     named = said.get("kind", "")
     at = places_of(steps, named, language)
-    nth = _number(said, "nth", table)
+    nth = number_said(said, "nth", table)
     if nth:
         at = at[nth - 1 :][:1] if nth > 0 else at[nth:][:1]
     many = named in table["plurals"] and not nth
@@ -148,7 +162,7 @@ def with_part_resized(
     Raises:
         Unclear: there is no such part, or it takes no such size.
     """
-    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    found = next(filter(None, (form.fullmatch(plain) for form in forms(language, "resized"))), None)
     last = motion_meant(dialogue) if found is not None else None
     if last is None or last.plan is None or found is None:
         return None
@@ -159,7 +173,7 @@ def with_part_resized(
     if len(sizes) > 1 or any(atom.kind not in ("q", "dir", "rot", "verb") for atom in atoms):
         return None
     at = places_of(steps, said["kind"], language)
-    nth = _number(said, "nth", table)
+    nth = number_said(said, "nth", table)
     at = (at[nth - 1 :] if nth > 0 else at[nth:])[:1] if nth else at if len(at) == 1 else []
     other = _on_the_way(steps[at[0]], [atom for atom in atoms if atom.kind != "q"]) if at else None
     changed = resized([other], Edit(amounts=sizes)) if other and sizes else [other] if other else None
@@ -184,7 +198,7 @@ def _on_the_way(step: Step, said: Sequence[Atom]) -> Step | None:
 
 def is_change_alone(plain: str, language: str) -> bool:
     """第二步改成右转: whether one part is to be another, and nothing says that all is to be done again."""
-    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "resized"))), None)
+    found = next(filter(None, (form.fullmatch(plain) for form in forms(language, "resized"))), None)
     return found is not None and "whole" in found.re.groupindex and not found["whole"]
 
 
@@ -195,12 +209,12 @@ def listed(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
         Unclear: there are no such parts.
     """
     last = dialogue.last_motion
-    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "listed"))), None)
+    found = next(filter(None, (form.fullmatch(plain) for form in forms(language, "listed"))), None)
     if last is None or last.plan is None or found is None:
         return None
     table, said = load_table(language, "selections"), found.groupdict(default="")
     units = _units(dialogue, "step", language)
-    at = [_number({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
+    at = [number_said({"nth": said[group]}, "nth", table) for group in ("nth", "then")]
     at = [n + len(units) + 1 if n < 0 else n for n in at]
     if not all(1 <= n <= len(units) for n in at) or len(units) < 2:
         raise Unclear("nothing_before", plain)
@@ -220,7 +234,7 @@ def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
         Unclear: nobody can tell what that is, or how much.
     """
     table = load_table(language, "selections")
-    is_up_to = any(form.search(plain) for form in _forms(language, "up_to"))
+    is_up_to = any(form.search(plain) for form in forms(language, "up_to"))
     if (dialogue.last_motion is not None and is_up_to) or plain.strip(" .!") in table.get("pointing", ()):
         raise Unclear("unclear_motion", plain[:60])
     moved = [turn.plan.steps for turn in dialogue.turns if turn.plan is not None]
@@ -240,12 +254,12 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
         Unclear: it wants one more lap, and the last motion was none.
     """
     last = dialogue.last_motion
-    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "further"))), None)
+    found = next(filter(None, (form.fullmatch(plain) for form in forms(language, "further"))), None)
     if last is None or last.plan is None or found is None:
         return None
     steps, said = list(last.plan.steps), found.groupdict(default="")
     once = once_of(steps)
-    count = _number(said, "count", load_table(language, "selections")) or 1
+    count = number_said(said, "count", load_table(language, "selections")) or 1
     if said.get("lap"):
         more = laps(steps, count)
         if more is None:
@@ -281,50 +295,9 @@ def _units(dialogue: Dialogue, kind: str, language: str, *, with_corners: bool =
     return [turns[-1][i : j if with_corners else i + 1] for i, j in zip(at, [*at[1:], len(turns[-1])])]
 
 
-def _number(said: dict[str, str], group: str, table: dict[str, Any]) -> int:
-    """The number of an ordinal (`nth`) or a count; 0 for none. The last is -1, the one before it -2."""
-    word = said.get(group, "")
-    named = {**table["numbers"], **(table["ordinals"] if group == "nth" else {})}
-    return int(word) if word.isdecimal() else int(named.get(word, 0))
-
-
-def speed_for_all(plain: str, language: str) -> tuple[str, str] | None:
-    """The speed that a normalised text tells for all it orders, and the rest of it; None where it tells none so."""
-    found = next(filter(None, (form.fullmatch(plain) for form in _forms(language, "for_all"))), None)
-    if found is None:
-        return None
-    rate = load_table(language, "selections")["rate"]  # of a number alone
-    is_rate = re.search(rate["said"], found["speed"]) is not None
-    return (found["speed"] if is_rate else f"{found['speed']}{rate['unit']}"), found["rest"]
-
-
-def same_speed(plain: str, language: str) -> re.Match[str] | None:
-    """Where a normalised text asks for the speed of the motion before: 跟刚才一样快."""
-    return next(filter(None, (form.search(plain) for form in _forms(language, "same_speed"))), None)
-
-
 def names_a_part(plain: str, language: str) -> bool:
     """Whether a text names a part of what was done, whatever else it says."""
-    return any(form.search(plain) for form in _forms(language, "mentions"))
-
-
-@cache
-def _forms(language: str, name: str = "forms") -> tuple[Form, ...]:
-    return forms_of(f"selections_{language}_{name}", lambda: _in_full(language, name))
-
-
-def _in_full(language: str, name: str) -> Iterator[str]:
-    table = load_table(language, "selections")
-    words = {
-        **table.get("parts", {}),
-        "kind": [word for words in table.get("kinds", {}).values() for word in words],
-        "ordinal": table.get("ordinals", ()),
-        "number": table.get("numbers", ()),
-    }
-    parts = {part: "|".join(sorted(named, key=len, reverse=True)) for part, named in words.items()}
-    parts["number"] += r"|\d{1,2}"
-    for form in table.get(name, ()):
-        yield re.sub(r"(?<!\?P)<(\w+)>", lambda m: f"(?:{parts[m[1]]})", form)
+    return any(form.search(plain) for form in forms(language, "mentions"))
 
 
 def points_at_before(atom: Atom, language: str) -> bool:

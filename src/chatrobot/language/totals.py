@@ -56,10 +56,13 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         return [Drive(-missing, direction_rad=math.remainder(step.direction_rad + math.pi, 2 * math.pi))]
     angle = whole.q.get("angle") or whole.q.get("turns")
     if angle and isinstance(step, Turn) and len(steps) == 1:
+        is_back = (moved.yaw_rad > 0.0) != step.left and is_correction(
+            last
+        )  # `no, right`: turned to the other side
         missing = _missing(whole, angle.number, abs(moved.yaw_rad))
         if abs(missing) < NEAR_RAD:
             raise Unclear("contradiction", whole.text)
-        return [Turn(abs(missing), left=step.left if missing > 0 else not step.left)]
+        return [Turn(abs(missing), left=(step.left != is_back) == (missing > 0))]
     raise Unclear("nothing_before", whole.text)
 
 

@@ -81,6 +81,7 @@ class Seat:
             "moving": seen is not None and seen.moving,
             "emergency": self.room.is_latched,
             "gone": self.room.is_over,
+            "said": self.room.last_said[:_MOST_SHOWN_CHARS],
             "plan_text": self._plan_text[:_MOST_SHOWN_CHARS],
             "reply": self._reply[:_MOST_SHOWN_CHARS],
             "outcome": self._outcome,

@@ -44,6 +44,7 @@ class Room:
         self._history: deque[Message] = deque(maxlen=HISTORY)
         self._pinned: dict[str, Message] = {}
         self._turns: dict[int, str] = {}
+        self.last_said = ""
         self.plans = AskedPlans()
         self.take_command: Callable[[Face, str], bool] = lambda _, __: False
         """Does what is no sentence for the robot; False where it is one. Ask it before `say`."""
@@ -343,4 +344,5 @@ class Room:
     def note_said(self, turn: int, text: str, by: str, name: str) -> None:
         """Tell everybody what somebody said."""
         with self._lock:
+            self.last_said = text
             self._tell(told("said", turn=turn, text=text, by=by, name=name), is_kept=True)

@@ -27,25 +27,39 @@ export function onEditPlan(listener) {
 function entryOf(turn) {
   let entry = turn ? entries.get(turn) : null;
   if (!entry) {
-    entry = {
-      turn,
-      item: make("li", "turn"),
-      you: make("p", "you"),
-      robot: make("div", "robot"),
-      text: make("p", "text"),
-      found: make("ul", "found"),
-      bar: make("span", "bar"),
-      buttons: make("div", "buttons"),
-    };
-    entry.you.hidden = entry.bar.hidden = entry.robot.hidden = true;
-    entry.bar.setAttribute("aria-hidden", "true");
-    entry.robot.append(entry.text, entry.found, entry.bar, entry.buttons);
-    entry.item.append(entry.you, entry.robot);
+    entry = { turn, you: make("p", "you") };
+    entry.you.hidden = true;
+    addItem(entry);
+    entry.item.prepend(entry.you);
     entries.set(turn, entry);
-    list.append(entry.item);
     forgetOldest();
   }
   return entry;
+}
+
+/** What the robot says of a turn, at the end of the list. */
+function addItem(entry) {
+  Object.assign(entry, {
+    item: make("li", "turn"),
+    robot: make("div", "robot"),
+    text: make("p", "text"),
+    found: make("ul", "found"),
+    bar: make("span", "bar"),
+    buttons: make("div", "buttons"),
+  });
+  entry.bar.hidden = entry.robot.hidden = true;
+  entry.bar.setAttribute("aria-hidden", "true");
+  entry.robot.append(entry.text, entry.found, entry.bar, entry.buttons);
+  entry.item.append(entry.robot);
+  list.append(entry.item);
+}
+
+/** How a turn ended is told below what was said meanwhile: what it was to do stays where it was. */
+function goOnBelow(entry) {
+  const isLast = entry.item === list.lastElementChild;
+  if (isLast || entry.robot.hidden || !entry.text.textContent) return;
+  forgetRehearsal(entry);
+  addItem(entry);
 }
 
 function forgetOldest() {
@@ -161,6 +175,7 @@ const heard = {
   result(entry, event, text) {
     unask(entry);
     entry.bar.hidden = true;
+    if (text) goOnBelow(entry);
     if (text) say(entry, text, event.outcome);
     forgetRehearsal(entry);
     if (event.proposal) {
@@ -220,7 +235,7 @@ export function startChat() {
     const entry = entryOf(message.turn);
     if (asking) unask(asking);
     entry.you.hidden = false;
-    const isMine = state.hello && message.by === state.hello.you;
+    const isMine = state.mine.has(String(message.by));
     const who = isMine || !message.name ? [] : [make("span", "who", message.name)];
     entry.you.replaceChildren(...who, message.text);
     showHistory(message);

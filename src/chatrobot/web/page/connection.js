@@ -1,6 +1,6 @@
 /** The connection to the server: opened, kept, opened again; messages out, messages in by their kind. */
 
-import { keepInTab } from "./dom.js";
+import { keepInTab, takeFromTab } from "./dom.js";
 import { useFirstLine, useStopLine } from "./stop.js";
 
 const OPEN = 1;
@@ -31,6 +31,7 @@ export const state = {
   isOpen: false,
   isSilent: false,
   hello: null,
+  mine: new Set(),
   steers: false,
   may: new Set(),
   isReplaying: false,
@@ -117,6 +118,15 @@ function isOfAnotherServer(hello) {
   return was !== 0 && was !== stopPort;
 }
 
+/** Whom this tab has been at this server: a page that is loaded again is another to it, and its texts are still one's own. */
+function rememberMe(hello) {
+  const key = "chatrobot-was";
+  const [port, ...before] = takeFromTab(key).split(" ");
+  const ids = Number(port) === hello.stop_port ? before : [];
+  state.mine = new Set([...ids, String(hello.you)]);
+  keepInTab(key, [hello.stop_port, ...state.mine].join(" "));
+}
+
 function greet(hello) {
   if (isOfAnotherServer(hello)) {
     keepInTab(BEGUN_ANEW, "yes");
@@ -125,6 +135,7 @@ function greet(hello) {
   }
   state.isOpen = true;
   state.hello = hello;
+  rememberMe(hello);
   follow({ by: hello.steering && hello.steering.by, may: hello.may });
   if (hello.stop_port) useStopLine(addressOf(hello.stop_port, "/stop"));
   tell({ is: "open" });

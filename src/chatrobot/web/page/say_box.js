@@ -38,7 +38,7 @@ export function sendBox() {
 /** What this page's person said before a reconnection can be had again, too. */
 export function showHistory(message) {
   byId("examples").hidden = true;
-  if (state.isReplaying && state.hello && message.by === state.hello.you) keep(message.text);
+  if (state.isReplaying && state.mine.has(String(message.by))) keep(message.text);
 }
 
 function keep(text) {

@@ -63,6 +63,7 @@ function makeCard(robot) {
     where: make("p", "where"),
     who: make("p", "who"),
     lesson: make("p", "lesson"),
+    heard: make("p", "heard"),
     doing: make("p", "doing"),
     said: make("div", "said"),
     stop: makeButton("", "small stop-one", () => send({ do: "stop", room })),
@@ -77,7 +78,7 @@ function makeCard(robot) {
   card.open.rel = "noopener";
   const head = make("header", "", card.title, card.state);
   const buttons = make("div", "buttons", card.stop, card.open, card.link, card.end);
-  card.said.append(card.release, card.lesson, card.doing);
+  card.said.append(card.release, card.lesson, card.heard, card.doing);
   card.said.setAttribute("role", "group");
   card.item.append(head, buttons, card.who, card.where, card.said); // what comes and goes moves no button
   list.append(card.item);
@@ -113,6 +114,7 @@ function drawCard(robot) {
   const heading = Math.round((Math.atan2(Math.sin(yaw), Math.cos(yaw)) * 180) / Math.PI) || 0;
   setText(card.where, robot.pose ? t("pose", { x: metres(x), y: metres(y), heading }) : "");
   drawTask(card.lesson, robot.lesson);
+  setText(card.heard, robot.said);
   setText(card.doing, robot.plan_text || robot.reply);
   card.doing.dataset.outcome = robot.plan_text ? "" : robot.outcome;
   label(card.stop, t("stop"), name);
