@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from chatrobot.programs.library import KeptProgram, Library
+from chatrobot.programs.library import AGENT, KeptProgram, Library, Provenance
 from tests.cli.running import Command
 from tests.programs.requests import ROTATION, SQUARE
 from tests.programs.scripted_model import program
@@ -75,6 +75,15 @@ def test_listed_shown_edited_renamed_exported_and_removed(
     assert (folder / "src" / "waltz" / "package.xml").exists()
     assert chatrobot("program", "remove", "waltz").code == 0
     assert Library(tmp_path / "config" / "chatrobot").names() == ()
+
+
+def test_a_program_of_an_agent_says_so_in_the_list_and_in_json(chatrobot: Command, library: Library) -> None:
+    library.keep(KeptProgram("spin", program("return"), provenance=Provenance("", "model", AGENT)))
+    assert chatrobot("program", "list").out.split() == ["spin", "agent"]
+    (told,) = chatrobot("program", "list", "--json").named("program")
+    assert (told["by"], told["model"]) == ("agent", "")
+    library.edit("spin", program("pass"))
+    assert chatrobot("program", "list").out.split() == ["spin", "person"]
 
 
 def test_an_edit_that_is_no_python_leaves_the_kept_source_as_it_was(

@@ -123,8 +123,8 @@ def _about(program: KeptProgram) -> dict[str, object]:
         "name": program.name,
         "description": program.description,
         "sentence": provenance.sentence,
-        "by": provenance.by,
-        "model": provenance.model,
+        "by": provenance.author,
+        "model": provenance.model_name,
         "date": provenance.date,
         "versions": provenance.versions,
         "rehearsal": dict(program.rehearsal),
@@ -133,7 +133,7 @@ def _about(program: KeptProgram) -> dict[str, object]:
 
 
 def _summary(program: KeptProgram) -> str:
-    parts = [program.provenance.model or program.provenance.by]
+    parts = [program.provenance.model_name or program.provenance.author]
     if program.rehearsal:
         parts.append(f"{program.rehearsal['duration_s']:.1f} s, {program.rehearsal['length_m']:.2f} m")
     if program.runs:

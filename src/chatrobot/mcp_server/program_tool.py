@@ -16,7 +16,7 @@ from chatrobot.link.envelope import MAX_CODE_CHARS
 from chatrobot.mcp_server.calls import Calls, Line, Report
 from chatrobot.mcp_server.robot import AgentRobot
 from chatrobot.mcp_server.told import answer, course_told, error
-from chatrobot.programs.library import KeptProgram, Provenance, clean_name, today
+from chatrobot.programs.library import AGENT, KeptProgram, Provenance, clean_name, today
 
 ACTIONS = ("list", "show", "write", "rehearse", "run")
 MOST_WORDS_CHARS = 4_000
@@ -114,17 +114,13 @@ def _keep(authoring: Authoring, name: str, source: str) -> KeptProgram:
     before = library.find(wanted)
     if before is not None and before.source == source:
         return before
-    if before is not None and before.provenance.model != _AGENT:
+    if before is not None and before.provenance.model != AGENT:
         wanted = library.free_name(wanted)
         before = None
     versions = before.provenance.versions + 1 if before is not None else 1
-    program = KeptProgram(wanted, source, provenance=Provenance("", "model", _AGENT, today(), versions))
+    program = KeptProgram(wanted, source, provenance=Provenance("", "model", AGENT, today(), versions))
     library.keep(program if before is None else replace(program, runs=before.runs))
     return program
-
-
-_AGENT = "agent"
-"""Stands where a model's name would: a client over MCP wrote it, whatever model that uses."""
 
 
 def about(program: KeptProgram) -> dict[str, Any]:
@@ -133,7 +129,8 @@ def about(program: KeptProgram) -> dict[str, Any]:
     return {
         "name": program.name,
         "description": program.description or origin.sentence,
-        "by": origin.model or origin.by,
+        "by": origin.author,
+        "model": origin.model_name,
         "versions": origin.versions,
         "rehearsal": dict(program.rehearsal),
         "runs": len(program.runs),

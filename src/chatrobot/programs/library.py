@@ -17,17 +17,29 @@ from chatrobot.core.files import write_whole
 MAX_NAME_CHARS = 60
 KEPT_RUNS = 20
 _ABOUT, _SOURCE = "about.json", "program.py"
+AGENT = "agent"
+"""Kept in place of a model's name: a client over MCP wrote it, whatever model that uses."""
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """The origin of a program. `model` is PROVIDER:NAME, "" where none wrote it; `date` is ISO 8601, UTC."""
+    """The origin of a program. `model` is PROVIDER:NAME, `AGENT`, or "" for none; `date` is ISO 8601, UTC."""
 
     sentence: str = ""
     by: Literal["offline", "model", "person"] = "person"
     model: str = ""
     date: str = ""
     versions: int = 1
+
+    @property
+    def author(self) -> Literal["offline", "model", "person", "agent"]:
+        """Return who wrote it: what is kept calls an agent a model."""
+        return "agent" if self.by == "model" and self.model == AGENT else self.by
+
+    @property
+    def model_name(self) -> str:
+        """Return PROVIDER:NAME; "" where none of ours had a part in it."""
+        return "" if self.model == AGENT else self.model
 
 
 @dataclass(frozen=True)

@@ -143,7 +143,7 @@ def _about(program: KeptProgram) -> dict[str, Any]:
     return {
         "name": program.name,
         "description": program.description,
-        "by": program.provenance.by,
+        "by": program.provenance.author,
         "versions": program.provenance.versions,
         "rehearsal": dict(program.rehearsal),
         "runs": len(program.runs),
