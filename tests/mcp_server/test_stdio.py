@@ -13,6 +13,8 @@ from typing import Any
 
 import anyio
 import pytest
+from mcp import Client
+from mcp.client.stdio import StdioServerParameters, stdio_client
 
 from chatrobot.recording.reader import read
 from tests.mcp_server.mcp_rig import (
@@ -40,6 +42,11 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
             assert rehearsed["outcome"] == "completed"
             assert rehearsed["rehearsed"]["length_m"] == pytest.approx(0.4, abs=0.01)
             assert not agent.wire.velocities.all or not any(any(t) for _, t in agent.wire.velocities.all)
+
+            for wrong in ({"rehearse": True}, {"speed_mps": 0.05}):
+                refused = await agent.data("instruct", text="forward 10 cm", **wrong)
+                assert refused["reason"]["code"] == "bad_arguments"
+            assert not any(any(twist) for _, twist in agent.wire.velocities.all), "nothing moves"
 
             shown = text_of(await agent.call("rehearse", text="forward 40 cm, then left"))
             assert "Plan: drive 0.4 m; turn left 90 deg" in shown, "many models see no more than this"
@@ -75,6 +82,20 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
     ended = [event["outcome"] for _, event in recording.events if event["event"] == "result"]
     assert ended == ["completed", "completed", "completed", "stopped", "completed"]
     assert max(odometry.x_m for _, odometry in recording.odometry) == pytest.approx(0.4, abs=0.03)
+
+
+def test_which_robot_it_is_can_be_read_before_the_first_call(tmp_path: Path) -> None:
+    async def task() -> None:
+        words = command(tmp_path)
+        server = StdioServerParameters(command=words[0], args=words[1:], env=environment(tmp_path))
+        async with Client(stdio_client(server)) as client:
+            (state,) = (await client.read_resource("chatrobot://state")).contents
+        told = json.loads(state.text)
+        own = {"simulated": True, "world": "empty", "shared_with": None}
+        assert told["robot"] == {"name": "wheeltec_mini_mec", **own}
+        assert told["connected"]
+
+    anyio.run(task)
 
 
 def test_an_emergency_stop_refuses_all_motion_and_no_agent_releases_it(tmp_path: Path) -> None:

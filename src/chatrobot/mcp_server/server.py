@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import Any
 
 from mcp.server.mcpserver import MCPServer
@@ -10,10 +11,10 @@ from mcp_types import ToolAnnotations
 from chatrobot import __version__
 from chatrobot.core.event import strict_json
 from chatrobot.dialogue.llm.prompt import robot_line, step_lines
-from chatrobot.mcp_server.robot import AgentRobot
+from chatrobot.mcp_server.robot import AgentRobot, RobotGoneError
 from chatrobot.mcp_server.surroundings import map_of, motion_told, robot_told
 from chatrobot.mcp_server.told import pose_told
-from chatrobot.mcp_server.tools import Tools
+from chatrobot.mcp_server.tools import Tools, strict_tool
 from chatrobot.robots.profile import RobotProfile
 
 _INSTRUCTIONS = """\
@@ -67,24 +68,25 @@ def build_server(
 ) -> MCPServer[Any]:
     """Make the server, with tools of its own where none are given. `AgentRobot.start` meets the robot."""
     kind = "simulated" if is_simulated else "real: mind people and things"
+    tools = tools or Tools(robot)
     server: MCPServer[Any] = MCPServer(
         "chatrobot",
         title="ChatRobot",
         version=__version__,
         instructions=_INSTRUCTIONS.format(title=profile.title, kind=kind, robot=robot_line(profile)),
+        tools=[
+            strict_tool(function, _DESCRIPTIONS[function.__name__].replace("\n", " "), hints)
+            for function, hints in (
+                (tools.instruct, _MOVES),
+                (tools.rehearse, _READS),
+                (tools.observe, _READS),
+                (tools.stop, _STOPS),
+                (tools.places, _READS),
+                (tools.programs, _MOVES),
+            )
+        ],
         log_level="WARNING",
     )
-    tools = tools or Tools(robot)
-    for tool, hints in (
-        (tools.instruct, _MOVES),
-        (tools.rehearse, _READS),
-        (tools.observe, _READS),
-        (tools.stop, _STOPS),
-        (tools.places, _READS),
-        (tools.programs, _MOVES),
-    ):
-        told = _DESCRIPTIONS[tool.__name__].replace("\n", " ")
-        server.add_tool(tool, description=told, annotations=hints, structured_output=False)
     _add_resources(server, robot)
     _add_prompt(server, profile)
     return server
@@ -99,7 +101,9 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
         description="Which robot it is, where, how it moves, and the last events.",
         mime_type="application/json",
     )
-    def state() -> str:
+    async def state() -> str:
+        with contextlib.suppress(RobotGoneError):  # then it tells that, too
+            await robot.ready()
         return strict_json(_state_of(robot))
 
     @server.resource(

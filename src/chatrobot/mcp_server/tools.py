@@ -6,12 +6,13 @@ import asyncio
 import base64
 import json
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable
 from typing import Annotated, Any
 
 from mcp.server.mcpserver import Context
-from mcp_types import CallToolResult, ContentBlock, ImageContent
-from pydantic import BeforeValidator, Field
+from mcp.server.mcpserver.tools import Tool
+from mcp_types import CallToolResult, ContentBlock, ImageContent, ToolAnnotations
+from pydantic import BeforeValidator, Field, ValidationError
 
 from chatrobot.core.errors import ChatRobotError, InputError
 from chatrobot.core.events import Event, Looked
@@ -27,6 +28,7 @@ from chatrobot.reflex import is_release
 
 MOST_TEXT_CHARS = 4_000
 MOST_PLAN_CHARS = 20_000
+MOST_QUOTED_CHARS = 300
 LOOK_S = 0.5
 NEWS_S = 0.3
 STAND_S = 2.0
@@ -203,6 +205,44 @@ class Tools:
             return await doing
         except ChatRobotError as wrong:
             return error(str(wrong), "bad_arguments" if isinstance(wrong, InputError) else "robot")
+
+
+class _StrictTool(Tool):
+    """A tool that does nothing where it is called with an argument that it does not have, or of another type."""
+
+    async def run(
+        self, arguments: dict[str, Any], context: Context[Any, Any], convert_result: bool = False
+    ) -> Any:
+        """Run it, or say what is wrong with the arguments. A stop is obeyed whatever comes with it."""
+        known = self.parameters["properties"]
+        unknown = _quoted(name for name in arguments if name not in known)
+        if unknown and self.name != "stop":
+            has = f"it has {_quoted(known)}" if known else "it takes none"
+            return error(f"Nothing was done: {self.name} has no argument {unknown}; {has}.", "bad_arguments")
+        try:
+            self.fn_metadata.validate_arguments(arguments)
+        except ValidationError as wrong:
+            name = str(wrong.errors()[0]["loc"][0])
+            kind, given = known[name]["type"], json.dumps(arguments[name])[:MOST_QUOTED_CHARS]
+            return error(
+                f"Nothing was done: `{name}` of {self.name} is a {kind}, not {given}.", "bad_arguments"
+            )
+        return await super().run(arguments, context, convert_result)
+
+
+def _quoted(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)[:MOST_QUOTED_CHARS]
+
+
+def strict_tool(function: Callable[..., Any], told: str, hints: ToolAnnotations) -> Tool:
+    """Make the tool of a function, told to agents like that."""
+    tool = _StrictTool.from_function(function, description=told, annotations=hints, structured_output=False)
+    properties = {
+        name: {key: value for key, value in schema.items() if key != "title"}  # it is the name again
+        for name, schema in tool.parameters["properties"].items()
+    }
+    tool.parameters = {"type": "object", "properties": properties, "additionalProperties": False}
+    return tool
 
 
 def _problem_with(text: str, plan: str) -> str:
