@@ -180,11 +180,13 @@ class HttpServer(TalkingProcess):
 
 
 @contextlib.asynccontextmanager
-async def over_http(url: str, token: str, wire: Wire, mode: str = "auto") -> AsyncIterator[Agent]:
+async def over_http(
+    url: str, token: str, wire: Wire, mode: str = "auto", patience_s: float = PATIENCE_S
+) -> AsyncIterator[Agent]:
     """An agent over HTTP."""
     headers = {"Authorization": f"Bearer {token}"}
     async with (
-        httpx2.AsyncClient(headers=headers, timeout=PATIENCE_S) as http,
+        httpx2.AsyncClient(headers=headers, timeout=patience_s) as http,
         Client(streamable_http_client(url, http_client=http), mode=mode) as client,
     ):
         yield Agent(client, wire)

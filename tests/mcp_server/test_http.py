@@ -18,6 +18,7 @@ from typing import Any
 import anyio
 import pytest
 
+from chatrobot.execution.estimator import STANDING_SPEED_MPS
 from tests.mcp_server.mcp_rig import Agent, HttpServer, Wire, over_http, text_of
 
 pytestmark = pytest.mark.realtime
@@ -73,6 +74,34 @@ def test_an_agent_drives_and_cancels_over_http(served: Served, mode: str) -> Non
             await agent.cancel_in_motion(text="forward 3 m")
             assert await agent.stands()
             assert (await agent.data("instruct", text="back 10 cm"))["outcome"] == "completed"
+
+    anyio.run(task)
+
+
+HTTPX2_WAITS_S = 5.0
+"""So long a client of httpx2 hears nothing before it gives up, unless its user says otherwise."""
+
+
+@pytest.mark.parametrize("mode", ["auto", "legacy"])
+def test_a_client_that_gives_up_after_silence_hears_a_long_motion_out(served: Served, mode: str) -> None:
+    async def task() -> None:
+        server, wire = served.server, served.wire
+        async with over_http(server.url, server.token, wire, mode, HTTPX2_WAITS_S) as agent:
+            done = await agent.client.call_tool("instruct", {"plan": f"wait {HTTPX2_WAITS_S + 2.0} s"})
+            assert done.structured_content["outcome"] == "completed"
+
+    anyio.run(task)
+
+
+def test_what_is_seen_to_roll_is_never_told_to_stand(served: Served) -> None:
+    async def task() -> None:
+        async with served.agent() as agent:
+            await agent.cancel_in_motion(text="forward 3 m")
+            speeds_mps = []
+            while (seen := await agent.data("observe", picture=False))["speed_mps"] > STANDING_SPEED_MPS:
+                speeds_mps.append(seen["speed_mps"])
+                assert seen["moving"]
+            assert speeds_mps, "it rolls on for a moment"
 
     anyio.run(task)
 
@@ -244,6 +273,7 @@ def test_programs_are_written_rehearsed_kept_and_run(served: Served) -> None:
             assert text_of(words).startswith("Kept as “hop”. completed: ")
             listed = await agent.data("programs")
             assert [each["name"] for each in listed["programs"]] == ["broken", "hop", "spin"]
+            assert [each["by"] for each in listed["programs"]] == ["agent", "offline", "agent"]
             missing = await agent.call("programs", action="run", name="waltz")
             assert missing.is_error
             assert "broken, hop, spin" in text_of(missing)

@@ -70,6 +70,11 @@ CREEPING_MPS, CREEPING_RADPS = 0.03, 0.1
 _GAP_POINTS = 50
 
 
+def stands(twist: Twist) -> bool:
+    """Tell whether it is too slow to be seen moving."""
+    return twist.speed_mps < STANDING_SPEED_MPS and abs(twist.wz_radps) < STANDING_RATE_RADPS
+
+
 class Estimate(NamedTuple):
     """The robot at `stamp_s` of the sender's clock: pose in `odom` (yaw unwrapped), velocity in `base_link`."""
 
@@ -81,7 +86,7 @@ class Estimate(NamedTuple):
     @property
     def is_standing(self) -> bool:
         """Return True where it moves too slowly to be seen moving."""
-        return self.twist.speed_mps < STANDING_SPEED_MPS and abs(self.twist.wz_radps) < STANDING_RATE_RADPS
+        return stands(self.twist)
 
 
 class PoseEstimator:

@@ -12,6 +12,7 @@ from chatrobot.core.events import Looked, Telemetry
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed
 from chatrobot.dialogue.llm.camera import Camera
+from chatrobot.execution.estimator import stands
 from chatrobot.link.processes import SIMULATED
 from chatrobot.mcp_server.told import in_words, pose_told, tidy
 from chatrobot.sim.world import World
@@ -140,13 +141,18 @@ def motion_told(telemetry: Telemetry | None, heard_at_s: float) -> dict[str, Any
     return {
         "is_heard": time.monotonic() - heard_at_s <= OLD_S,
         "pose": pose_told(telemetry.pose),
-        "moving": telemetry.moving,
+        "moving": moves(telemetry),
         "speed_mps": round(twist.speed_mps, 3),
         "turning_degps": tidy(math.degrees(twist.wz_radps), 1),
         "path_m": round(telemetry.path_m, 2),
         "battery_percent": telemetry.battery_percent,
         "nearest_obstacle_m": telemetry.nearest_obstacle_m,
     }
+
+
+def moves(telemetry: Telemetry) -> bool:
+    """Tell whether it moves: a motion is under way, or has ended while the robot still rolls."""
+    return telemetry.moving or not stands(telemetry.twist)
 
 
 def take_picture(camera: Camera) -> bytes | None:

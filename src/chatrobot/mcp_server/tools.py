@@ -142,7 +142,8 @@ class Tools:
         while not stands and time.monotonic() - since_s < STAND_S:
             await asyncio.sleep(0.05)
             telemetry = record.telemetry
-            stands = record.heard_at_s > since_s + 0.1 and telemetry is not None and not telemetry.moving
+            is_new = record.heard_at_s > since_s + 0.1
+            stands = is_new and telemetry is not None and not surroundings.moves(telemetry)
         data: dict[str, Any] = {"stopped": True, "seen_standing": stands}
         if record.telemetry is not None:
             data["pose"] = pose_told(record.telemetry.pose)
