@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+import os
 import threading
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from chatrobot.core.errors import PlanTextError, ProfileError, UsageError, World
 from chatrobot.core.events import Event, Paused, Progress
 from chatrobot.plan.steps import Drive, Plan
 from tests.dialogue.scripted_model import ScriptedModel
+from tests.processes import wait_until
 
 
 @pytest.fixture
@@ -277,6 +280,26 @@ def test_in_real_time_who_waits_hears_that_another_thread_has_closed_the_robot()
     robot.close()
     waiting.join(30)
     assert told
+
+
+def children() -> set[str]:
+    """The processes that this one has started and not yet seen the end of."""
+    found = set()
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            parent = stat.read_text(errors="replace").rpartition(")")[2].split()[1]
+            found |= {stat.parent.name} if parent == str(os.getpid()) else set()
+    return found
+
+
+@pytest.mark.realtime
+@pytest.mark.usefixtures("runtime")
+def test_in_real_time_a_closed_robot_leaves_no_process_behind() -> None:
+    before = children()
+    with chatrobot.connect(world="empty"):
+        started = children() - before
+    assert len(started) == 2
+    wait_until(lambda: not started & children())
 
 
 @pytest.mark.realtime

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import subprocess
 import sys
+import threading
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -112,15 +113,18 @@ class Processes:
 def spawn(module: str, *arguments: str, pass_fds: Sequence[int] = ()) -> subprocess.Popen[bytes]:
     """Start `python -m MODULE ARGUMENTS` in a session of its own, so that no signal of a terminal reaches it.
 
-    Spawned, never forked: a forked child would hold descriptors of ours, and nobody would see them end.
+    Spawned, never forked: a forked child would hold descriptors of ours, and nobody would see them end. A thread waits
+    for its end, whenever that is: else what has ended stays a zombie for as long as we live.
     """
-    return subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-m", module, *arguments],
         pass_fds=pass_fds,
         start_new_session=True,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
     )
+    threading.Thread(target=process.wait, name="reaper", daemon=True).start()
+    return process
 
 
 def spawn_with_line(
