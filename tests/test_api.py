@@ -6,6 +6,7 @@ import contextlib
 import math
 import os
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -277,7 +278,9 @@ def test_in_real_time_who_waits_hears_that_another_thread_has_closed_the_robot()
     waiting = threading.Thread(target=drive, daemon=True)
     waiting.start()
     assert moving.wait(30)
+    began_s = time.monotonic()
     robot.close()
+    assert time.monotonic() - began_s < 3.0, "it waited for the ten metres"
     waiting.join(30)
     assert told
 

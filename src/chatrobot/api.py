@@ -125,7 +125,7 @@ def _model_of(model: Model | str | None, folder: Path | None) -> Model | None:
 
 
 class Robot:
-    """A connected robot. Close it, or use it in a `with`: what it was told is still done, orderly.
+    """A connected robot. Close it, or use it in a `with`.
 
     In real time events are heard on a thread of their own, all the time; in simulated time while `do` or `run`
     runs, on the caller's. `stop`, `pause` and `resume` may be called from any thread, everything
@@ -139,6 +139,8 @@ class Robot:
         self._listener_error: Exception | None = None
         self._lost: Exception | None = None
         self._closing = False
+        self._waiting: list[Callable[[], int]] = []
+        """What was said and has no result yet, of each thread that waits for one."""
         self._connection: Connection = compose_connect(setup, self._hear)
         self._pump: Pump | None = None
         if not setup.fast:
@@ -153,7 +155,7 @@ class Robot:
             ChatRobotError: something broke, or another thread has closed the robot.
         """
         _refuse_unless(isinstance(text, str), "text", text, "what to do, such as 'forward 1 m'")
-        return self._see_through(self._session.say(text))
+        return self._see_through(lambda: self._session.say(text))
 
     def run(self, plan: Plan | str) -> Result:
         """Run a plan, given as such or as plan text. It is rehearsed and limited like any other.
@@ -167,7 +169,7 @@ class Robot:
             isinstance(plan, (Plan, str)), "plan", plan, "a Plan, or plan text such as 'drive 1 m'"
         )
         text = format_plan(parse_plan(plan) if isinstance(plan, str) else plan)
-        return self._see_through(self._session.say_plan(text))
+        return self._see_through(lambda: self._session.say_plan(text))
 
     def stop(self) -> None:
         """Stop now: waits for nothing that is going on. What runs ends as `stopped`."""
@@ -192,10 +194,15 @@ class Robot:
         self._listeners.append(callback)
 
     def close(self) -> None:
-        """Say goodbye; a `do` that another thread waits in raises. Closing twice does no harm."""
+        """Say goodbye. What another thread's `do` has begun is stopped, and it raises. Closing twice does no harm."""
         if self._closing:
             return
         self._closing = True
+        session = self._connection.session
+        session.end_after()  # what a `do` says in this very moment
+        if self._waiting:
+            with contextlib.suppress(ChatRobotError):
+                session.stop("close()")
         self._tell_waiting()
         if self._pump is not None:
             self._pump.stop()
@@ -231,9 +238,11 @@ class Robot:
                 self._listener_error = error
                 self._connection.session.stop("a listener broke")
 
-    def _see_through(self, turn: int) -> Result:
+    def _see_through(self, say: Callable[[], int]) -> Result:
         session = self._session
+        self._waiting.append(say)
         try:
+            turn = say()
             while turn not in session.results:
                 if self._pump is None:
                     session.pump(PUMP_S)
@@ -244,6 +253,8 @@ class Robot:
         except KeyboardInterrupt:
             self.stop()
             raise
+        finally:
+            self._waiting.remove(say)
         return session.results[turn]
 
     def _raise_errors(self) -> None:
