@@ -60,6 +60,13 @@ def test_a_plan_runs_as_an_object_or_as_text() -> None:
         assert robot.do("again").turned_rad == pytest.approx(math.pi / 2, abs=0.03)
 
 
+def test_a_plan_that_cannot_be_is_an_error_of_ours_and_a_value_error() -> None:
+    for make in (lambda: Plan(()), lambda: Drive(distance_m=-1.0)):
+        with pytest.raises(chatrobot.ChatRobotError) as raised:
+            make()
+        assert isinstance(raised.value, ValueError)
+
+
 def test_a_text_that_is_no_plan_names_its_line() -> None:
     with fast() as robot, pytest.raises(PlanTextError, match="line 2"):
         robot.run("drive 1 m\nfly 2 m")

@@ -6,6 +6,7 @@ ChatRobotError                 something broke or was given to us broken
 │   ├── WorldError             a world file
 │   ├── LessonError            a lesson sheet
 │   ├── PlanTextError          a line of plan text (or its JSON form)
+│   ├── PlanError              a plan or a step that cannot be, made by a program; a ValueError, too
 │   ├── CorpusError            a file for `chatrobot eval`
 │   └── UsageError             a command-line option or an API argument
 ├── WireError                  the publish/subscribe layer lost its other end
@@ -60,6 +61,10 @@ class PlanTextError(InputError):
         self.line = line
         where = f"line {line_number}: {line.strip()!r}" if line_number else ""
         super().__init__(problem, where=where, allowed=allowed)
+
+
+class PlanError(InputError, ValueError):
+    """A plan or one of its steps cannot be."""
 
 
 class CorpusError(InputError):

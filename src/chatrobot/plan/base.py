@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
+from chatrobot.core.errors import PlanError
+
 Frame = Literal["odom", "start"]
 """`odom`: where odometry began. `start`: the robot's pose at the moment this plan starts to move."""
 
@@ -14,13 +16,13 @@ _FORBID = {"extra": "forbid", "allow_inf_nan": False}
 
 
 def require(condition: bool, problem: str) -> None:
-    """Raise ValueError with `problem` unless `condition` holds."""
+    """Raise PlanError with `problem` unless `condition` holds."""
     if not condition:
-        raise ValueError(problem)
+        raise PlanError(problem)
 
 
 def require_positive(step: object, *names: str) -> None:
-    """Raise ValueError for a field that is not above zero, or infinite. None passes: it was left out."""
+    """Raise PlanError for a field that is not above zero, or infinite. None passes: it was left out."""
     for name in names:
         value = getattr(step, name)
         ok = value is None or (math.isfinite(value) and value > 0.0)
@@ -28,7 +30,7 @@ def require_positive(step: object, *names: str) -> None:
 
 
 def require_finite(step: object, *names: str) -> None:
-    """Raise ValueError for a field that is NaN or infinite. None passes."""
+    """Raise PlanError for a field that is NaN or infinite. None passes."""
     for name in names:
         value = getattr(step, name)
         require(value is None or math.isfinite(value), f"{name} must be a finite number, not {value}")
@@ -137,8 +139,7 @@ class Plan:
         require(len(self.steps) > 0, "a plan needs at least one step")
         require(_nesting(self.steps) <= MAX_NESTING, f"blocks are nested at most {MAX_NESTING} deep")
         require(_lines(self.steps) <= MAX_LINES, f"a plan has at most {MAX_LINES} lines")
-        count = count_steps(self.steps)
-        most = MAX_EXPANDED_STEPS
+        count, most = count_steps(self.steps), MAX_EXPANDED_STEPS
         require(count <= most, f"a plan does at most {most} steps in all, not {count}")
 
 
