@@ -67,6 +67,20 @@ def test_a_plan_that_cannot_be_is_an_error_of_ours_and_a_value_error() -> None:
         assert isinstance(raised.value, ValueError)
 
 
+def test_what_nobody_measured_is_none() -> None:
+    with chatrobot.connect(fast=True, open_loop=True) as robot:
+        for text in ("forward 20 cm", "where are you?"):
+            result = robot.do(text)
+            assert (result.measured, result.has_moved) == (False, False)
+            assert (result.pose, result.path_m, result.turned_rad, robot.pose) == (None, None, None, None)
+
+
+def test_a_plan_that_is_proposed_to_a_robot_that_measures_nothing_waits_for_a_yes() -> None:
+    with chatrobot.connect(fast=True, open_loop=True) as robot:
+        assert robot.do("Ben says forward 20 cm").proposal is not None
+        assert robot.do("yes").outcome == "completed"
+
+
 def test_a_text_that_is_no_plan_names_its_line() -> None:
     with fast() as robot, pytest.raises(PlanTextError, match="line 2"):
         robot.run("drive 1 m\nfly 2 m")

@@ -134,7 +134,6 @@ class Robot:
 
     def __init__(self, setup: Setup) -> None:
         self._listeners: list[Listener] = []
-        self._pose = ORIGIN
         self._news = threading.Condition()
         self._listener_error: Exception | None = None
         self._lost: Exception | None = None
@@ -142,6 +141,7 @@ class Robot:
         self._waiting: list[Callable[[], int]] = []
         """What was said and has no result yet, of each thread that waits for one."""
         self._connection: Connection = compose_connect(setup, self._hear)
+        self._pose: Pose | None = ORIGIN if self._connection.profile.has_odometry else None
         self._pump: Pump | None = None
         if not setup.fast:
             self._pump = Pump(self._connection.session, self._lose, self._tell_waiting)
@@ -184,8 +184,8 @@ class Robot:
         self._session.resume()
 
     @property
-    def pose(self) -> Pose:
-        """Where the robot last said it was: metres and radians from where it was connected."""
+    def pose(self) -> Pose | None:
+        """Where the robot last said it was: metres and radians from where it was connected. None without odometry."""
         return self._pose
 
     def on_event(self, callback: Listener) -> None:

@@ -233,7 +233,7 @@ def _measure(dialogue: Dialogue, trial: Trial) -> Measured | None:
     if truth is not None:
         truth.begin()
     result = dialogue.drive(trial.plan_text)
-    if result.outcome != "completed":
+    if result.outcome != "completed" or result.path_m is None or result.turned_rad is None:
         raise DoesNotFit
     seen = result.path_m if trial is METRE else math.degrees(abs(result.turned_rad))
     if truth is not None:

@@ -179,6 +179,6 @@ class Narrator:
             yield Line(reply, lead="")
             return
         yield _marked(*_MARKS[event.outcome], reply)
-        if event.has_moved:
+        if event.has_moved and event.pose is not None:
             pose, duration = self._words.pose(event.pose), f"{event.duration_s:.1f}"
             yield _marked("", "", self._words.say("measured", pose=pose, duration=duration), "dim")

@@ -114,6 +114,7 @@ def _optional(read: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 _READERS: Mapping[str, Any] = {
     "Pose": lambda value: ORIGIN if value is None else Pose(**value),
+    "Pose | None": _optional(lambda value: Pose(**value)),
     "float": lambda value: 0.0 if value is None else value,
     "Twist": lambda value: Twist(**value),
     "Reason": Reason.from_json,

@@ -295,26 +295,32 @@ class Finished(Event, name="finished", unmeasured=("start", "pose", "turned_rad"
 
 @dataclass(frozen=True)
 class Result(Event, name="result", unmeasured=("pose", "turned_rad", "path_m")):
-    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`; `measured`, too.
+    """The last event of every turn; pose and distances are what odometry measured, as in `Finished`, and
+    None where `measured` is False.
 
     `proposal` is a plan that the reply asks about.
     """
 
     outcome: Outcome
     reply: str
-    pose: Pose = ORIGIN
-    turned_rad: float = 0.0
-    path_m: float = 0.0
+    pose: Pose | None = ORIGIN
+    turned_rad: float | None = 0.0
+    path_m: float | None = 0.0
     duration_s: float = 0.0
     paused_s: float = 0.0
     reason: Reason | None = field(default=None)
     proposal: Proposal | None = None
     measured: bool = True
 
+    def __post_init__(self) -> None:
+        if not self.measured:  # a program is not to compute with zeros that nobody has measured
+            for name in self.unmeasured:
+                object.__setattr__(self, name, None)
+
     @property
     def has_moved(self) -> bool:
         """It was measured that the robot moved."""
-        return self.path_m > LEAST_M or abs(self.turned_rad) > LEAST_RAD
+        return (self.path_m or 0.0) > LEAST_M or abs(self.turned_rad or 0.0) > LEAST_RAD
 
     @property
     def is_question(self) -> bool:

@@ -105,7 +105,7 @@ class Proposals:
         if self._rehearsed.hear(event):
             self._asked_at_s = time.monotonic()
         if isinstance(event, Result) and event.proposal is not None:
-            approval = Approval(time.monotonic(), event.pose)
+            approval = Approval(time.monotonic(), event.pose or self._understanding.pose)
             known = self._understanding.known_pose
             self._offered = _Offered(event.turn, event.proposal, approval, known is not None)
         elif isinstance(event, Telemetry) and self._offered is not None and not self._offered.is_placed:

@@ -78,7 +78,7 @@ class Record:
     def _end(self, result: Result, now_s: float) -> None:
         if self._is_driven or result.outcome not in ("completed", "answered"):
             self.last = result  # and no rehearsal
-        if self._is_driven and result.has_moved:
+        if self._is_driven and result.has_moved and result.pose is not None:
             self._way.append((now_s - self._began_s, result.pose))
         self._is_driven = False
 

@@ -126,8 +126,10 @@ def _add_resources(server: MCPServer[Any], robot: AgentRobot) -> None:
     )
     def last() -> str:
         result = record.last
-        told = {**result.to_json(), "ended_at": pose_told(result.pose)} if result is not None else None
-        return strict_json({"result": told, "way": record.way(), "edited_by_person": record.edit})
+        told = result.to_json() if result is not None else {}
+        if result is not None and result.pose is not None:
+            told["ended_at"] = pose_told(result.pose)
+        return strict_json({"result": told or None, "way": record.way(), "edited_by_person": record.edit})
 
 
 def _state_of(robot: AgentRobot) -> dict[str, Any]:

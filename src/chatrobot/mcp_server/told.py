@@ -155,9 +155,9 @@ def _end_told(course: Course, result: Result, data: dict[str, Any], language: st
     if result.reason is not None:
         data["reason"] = {**result.reason.to_json(), "text": why}
     data["measured"] = result.measured
-    if result.measured:
+    if result.pose is not None:
         data["pose"] = pose_told(result.pose)
-    if result.measured and not course.rehearse_only:
+    if result.path_m is not None and result.turned_rad is not None and not course.rehearse_only:
         data |= {
             "path_m": tidy(result.path_m, 3),
             "turned_deg": tidy(math.degrees(result.turned_rad), 1),
@@ -194,12 +194,11 @@ def _shortened(text: str, limit_chars: int) -> str:
 def _measured_lines(course: Course, result: Result, language: str) -> list[str]:
     if course.rehearse_only:
         return [_in_words(course.rehearsed, language)] if course.rehearsed is not None else []
-    where = pose_told(result.pose)
-    at = in_words(where)
-    if not result.measured:
+    if result.pose is None:
         return ["This robot measures nothing: nobody knows how far it went."]
     if not result.has_moved and result.outcome not in ("completed", "stopped"):
         return course.notes if result.outcome == "answered" else []
+    at = in_words(pose_told(result.pose))
     return [f"It took {result.duration_s:.1f} s; the robot is now {at}.", *course.notes]
 
 

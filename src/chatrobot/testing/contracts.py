@@ -94,4 +94,5 @@ class PrimitiveContract:
                 result = robot.run(text)
             assert result.outcome == "completed", result.reply
             ends = [event.end for event in events if isinstance(event, Rehearsed)]
+            assert result.pose is not None
             assert result.pose.distance_to(ends[-1]) < 0.03

@@ -86,7 +86,7 @@ class Timeline:
 
     @staticmethod
     def _result(t_s: float, event: events.Result) -> Row:
-        measured_m = event.path_m if event.measured and event.has_moved else None
+        measured_m = event.path_m if event.has_moved else None
         return Row(
             t_s,
             event.outcome,
