@@ -37,6 +37,12 @@ atexit.register(shutil.rmtree, os.environ["XDG_RUNTIME_DIR"], ignore_errors=True
 gc.disable()
 
 
+@pytest.fixture(autouse=True)
+def speaks_for_the_console(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A node, a command and `connect` say for their whole process which face people read."""
+    monkeypatch.setattr("chatrobot.language.typed._face", "console")
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """`make test` looks for tests in real time only in files that name the marker."""
     files = {item.path for item in items if item.get_closest_marker("realtime")}

@@ -81,6 +81,37 @@ def test_a_plan_that_is_proposed_to_a_robot_that_measures_nothing_waits_for_a_ye
         assert robot.do("yes").outcome == "completed"
 
 
+def test_a_text_drives_as_far_and_as_long_as_connect_allows() -> None:
+    with fast(max_distance_m=3) as robot:
+        told = robot.do("forward 4 m")
+        assert (told.outcome, told.reason and told.reason.code) == ("refused", "over_max_distance")
+        assert robot.do("forward 2 m").outcome == "completed"
+    with fast(max_time_s=2.0) as robot:
+        told = robot.do("forward 4 m")
+        assert (told.outcome, told.reason and told.reason.code) == ("refused", "over_max_time")
+    with fast(max_distance_m=None, max_time_s=None) as robot:
+        assert robot.do("forward 101 m at 1 m/s").outcome == "completed"
+
+
+@pytest.mark.parametrize("text", ["forward 101 m at 1 m/s", "fahr 101 m vor mit 1 m/s", "以1米每秒前进101米"])
+def test_a_limit_names_the_argument_that_allows_more(text: str) -> None:
+    with fast() as robot:
+        reply = robot.do(text).reply
+    assert "connect(max_distance_m=…)" in reply
+    assert "/limit" not in reply
+
+
+@pytest.mark.parametrize("text", ["/estop", "forward 1 m", "release the emergency stop"])
+def test_an_emergency_stop_names_no_way_out_that_a_program_has_not(text: str) -> None:
+    with fast() as robot:
+        robot.do("/estop")
+        reply = robot.do(text).reply
+    assert "/release" not in reply
+    assert "new one" in reply
+    with fast() as robot:
+        assert robot.do("forward 0.2 m").outcome == "completed"
+
+
 def test_a_text_that_is_no_plan_names_its_line() -> None:
     with fast() as robot, pytest.raises(PlanTextError, match="line 2"):
         robot.run("drive 1 m\nfly 2 m")
@@ -111,6 +142,12 @@ def test_every_option_is_checked() -> None:
         ({"model": "clippy:95"}, "model: I do not know the model “clippy:95”."),
         ({"model": 3}, "model: 3 cannot be used"),
         ({"camera": 3}, "camera: 3 cannot be used"),
+        (
+            {"max_distance_m": 0},
+            "max_distance_m: 0 cannot be used (it takes a number above zero, None for no limit",
+        ),
+        ({"max_distance_m": "5 m"}, "max_distance_m: '5 m' cannot be used"),
+        ({"max_time_s": True}, "max_time_s: True cannot be used"),
         ({"config_dir": __file__}, "it takes a folder"),
     ],
 )

@@ -8,10 +8,12 @@ with chatrobot.connect() as robot:
 from __future__ import annotations
 
 import contextlib
+import math
 import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
+from typing import Literal
 
 from chatrobot.compose import Connection, Setup
 from chatrobot.compose import connect as compose_connect
@@ -24,12 +26,15 @@ from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.pump import PUMP_S, Pump
 from chatrobot.dialogue.session import Session
 from chatrobot.language.phrases import render_reason
+from chatrobot.language.typed import speak_for
 from chatrobot.models.seam import Model, ModelError
 from chatrobot.options import DEFAULT_ROBOT, INTERPRETERS, NO_ODOMETRY
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
+from chatrobot.robots.profile import MotionBudget, read_limit
 
 Listener = Callable[[Event], None]
+Limit = float | Literal["profile"] | None
 
 
 def connect(
@@ -41,6 +46,8 @@ def connect(
     fast: bool = False,
     trace: bool = False,
     open_loop: bool = False,
+    max_distance_m: Limit = "profile",
+    max_time_s: Limit = "profile",
     config_dir: Path | str | None = None,
     model: Model | str | None = None,
     interpreter: Interpreter = "auto",
@@ -51,7 +58,8 @@ def connect(
     Args:
         sim: faults injected into the simulated robot, such as `slip=0.03,noise=on`.
         open_loop: drive a robot that has no odometry, slowly and for at most 10 s a text; nothing of its motion is
-            measured (`Result.measured` is False), and `pose` and distances mean nothing.
+            measured (`Result.measured` is False), and `pose` and distances are None.
+        max_distance_m, max_time_s: how far and how long one text or plan may drive; None for no limit.
         config_dir: where remembered places and the user's own profiles live; None keeps nothing.
         model: `PROVIDER:NAME`, or anything with the methods of `chatrobot.models.seam.Model`. None: no model.
         camera: takes a picture, as JPEG or PNG, for a model that asks to see one; None where there is none just now.
@@ -65,15 +73,17 @@ def connect(
     interpreters = " or ".join(map(repr, INTERPRETERS))
     _refuse_unless(interpreter in INTERPRETERS, "interpreter", interpreter, interpreters)
     _refuse_unless(camera is None or callable(camera), "camera", camera, "a function that returns a picture")
+    budget = MotionBudget(_limit_of("max_distance_m", max_distance_m), _limit_of("max_time_s", max_time_s))
     folder = _folder_of(config_dir)
     chosen = _model_of(model, folder)
     if interpreter == "model" and chosen is None:
         raise UsageError("no language model is given", where="interpreter", allowed="model='PROVIDER:NAME'")
     profile = str(robot) or (NO_ODOMETRY if open_loop else DEFAULT_ROBOT)
     setup = Setup(
-        on=on, robot=profile, world=str(world), sim=sim, fast=fast, trace=trace, open_loop=open_loop, folder=folder,
-        model=chosen, camera=camera, options=Options(interpreter=interpreter),
+        on=on, robot=profile, world=str(world), sim=sim, fast=fast, trace=trace, open_loop=open_loop, budget=budget,
+        folder=folder, model=chosen, camera=camera, options=Options(interpreter=interpreter),
     )  # fmt: skip
+    speak_for("python")
     return Robot(setup)
 
 
@@ -101,6 +111,17 @@ def _refuse_unless(is_right: bool, name: str, value: object, allowed: str) -> No
     """
     if not is_right:
         raise UsageError(f"{value!r} cannot be used", where=name, allowed=f"it takes {allowed}")
+
+
+def _limit_of(name: str, value: Limit) -> float | None:
+    """Return a limit as `MotionBudget` has it: None is the profile's there, and infinity is none."""
+    if value is None or value == "profile":
+        return math.inf if value is None else None
+    try:
+        return read_limit(value)
+    except ValueError:
+        allowed = "it takes a number above zero, None for no limit, or 'profile'"
+        raise UsageError(f"{value!r} cannot be used", where=name, allowed=allowed) from None
 
 
 def _folder_of(config_dir: Path | str | None) -> Path | None:

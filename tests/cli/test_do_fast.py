@@ -357,6 +357,12 @@ def test_an_emergency_stop_is_said_to_end_with_the_command(chatrobot: Command) -
     assert (done.code, "holds until this command ends" in done.out) == (5, True)
 
 
+def test_an_emergency_stop_names_no_way_out_that_lines_have_not(chatrobot: Command) -> None:
+    done = chatrobot("--json", *FAST, stdin="/estop\nforward 1 m\n/release\n")
+    replies = [event["reply"] for event in done.named("result")]
+    assert ["/release" not in reply and "new one" in reply for reply in replies] == [True] * 3
+
+
 def test_the_line_after_a_question_answers_it(chatrobot: Command) -> None:
     done = chatrobot("--fast", "--json", stdin="forward 5 m\nyes\nwhere are you?\n")
     assert [event["outcome"] for event in done.named("result")] == ["refused", "completed", "answered"]

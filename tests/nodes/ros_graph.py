@@ -28,7 +28,6 @@ PATIENCE_S = 10.0
 
 @pytest.fixture
 def ros(monkeypatch: pytest.MonkeyPatch) -> fake_rclpy.Ros:
-    monkeypatch.setattr("chatrobot.language.typed._is_ros", False)  # a node sets it for its process
     return fake_rclpy.install(monkeypatch)
 
 

@@ -16,6 +16,7 @@ from chatrobot.core.events import EXIT_CODES, Event, Notice, Result
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import AFTER_GOODBYE, is_parting
 from chatrobot.language.interpretation import LanguageCode
+from chatrobot.language.typed import speak_for
 
 PUMP_S = 0.1
 
@@ -47,6 +48,7 @@ class Conversation:
         self._connection: Connection | None = None
 
     def __enter__(self) -> Conversation:
+        speak_for("lines")
         connection = self._meet(self._setup, self._on_event)
         self.session, self._connection = connection.session, connection
         self._approver.attach(connection.world)

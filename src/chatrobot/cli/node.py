@@ -62,10 +62,10 @@ def open_ros_interfaces(args: argparse.Namespace, ros_args: list[str]) -> RosInt
         UsageError: ROS is not here, or what it was given cannot be used.
     """
     require_ros()
-    from chatrobot.language.typed import type_as_ros_args
+    from chatrobot.language.typed import speak_for
     from chatrobot.nodes.ros_interfaces import RosInterfaces
 
-    type_as_ros_args()
+    speak_for("ros")
     known = [(each, each.parameter) for each in (*OPTIONS, *OF_NODES) if each.parameter is not None]
     given = {named.name: option.to_parameter(getattr(args, option.name)) for option, named in known}
     if not args.names_robot:

@@ -1,12 +1,14 @@
-"""Options as the person types them: on our command line, or as ROS parameters under `ros2 run`.
+"""What a person can type here: options of our command line, ROS parameters under `ros2 run`, arguments in Python.
 
-The phrases name options as our command line has them. Where this process is a node of ROS, each is shown as what
-stands behind `--ros-args`, and a phrase whose code ends in `_ros` goes before the one without.
+The phrases name options as our command line has them, and commands of the console at the terminal. On another face a
+phrase whose code ends in one of its `_ENDINGS` goes before the one without. Where this process is a node of ROS, each
+option is shown as what stands behind `--ros-args`.
 """
 
 from __future__ import annotations
 
 import re
+from typing import Literal
 
 _SWITCHES = ("open-loop", "on-robot", "allow-release", "accept-others")
 _VALUES = {
@@ -26,23 +28,31 @@ _OPTION = re.compile(
 )
 """A value that follows is a placeholder, or the name of a robot's profile."""
 
-_is_ros = False
+Face = Literal["console", "lines", "python", "ros"]
+"""Where people read us: at the console, as lines of a command, in a program that called `connect`, at a node of ROS."""
+_ENDINGS: dict[Face, tuple[str, ...]] = {
+    "console": ("",),
+    "lines": ("_consoleless", ""),
+    "python": ("_python", "_consoleless", ""),
+    "ros": ("_ros", ""),
+}
+_face: Face = "console"
 
 
-def type_as_ros_args() -> None:
-    """This process is a node of ROS: from now on options are shown as its parameters."""
-    global _is_ros  # how the process was started, and it stays so
-    _is_ros = True
+def speak_for(face: Face) -> None:
+    """From now on name what can be typed on that face of this process."""
+    global _face  # how the process was started, and it stays so
+    _face = face
 
 
 def codes(code: str) -> tuple[str, ...]:
     """The codes under which a phrase is looked for, the best first."""
-    return (f"{code}_ros", code) if _is_ros else (code,)
+    return tuple(code + ending for ending in _ENDINGS[_face])
 
 
 def typed(text: str) -> str:
     """The text with its options as they are typed here."""
-    return as_ros_args(text) if _is_ros else text
+    return as_ros_args(text) if _face == "ros" else text
 
 
 def as_ros_args(text: str) -> str:
