@@ -9,7 +9,7 @@ import threading
 
 from chatrobot.cli.approver import Approver
 from chatrobot.cli.conversation import Conversation
-from chatrobot.cli.lines import has_keyboard, read_chunk
+from chatrobot.cli.lines import LineSplitter, has_keyboard, read_chunk
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.reflex import is_pause, leads_with_stop
@@ -35,17 +35,18 @@ class Keyboard:
             threading.Thread(target=self._read, name="keyboard", daemon=True).start()
 
     def _read(self) -> None:
-        rest = b""
+        splitter = LineSplitter()
         while True:
             select.select([sys.stdin], [], [])
             with self._reading:  # an editor has the terminal for itself
                 if not select.select([sys.stdin], [], [], 0.0)[0]:
                     continue
                 chunk = read_chunk()
-            *lines, rest = (rest + chunk).split(b"\n")
-            for line in lines:
-                self._hear(line.decode("utf-8", errors="replace").strip())
+            for line in splitter.take(chunk):
+                self._hear(line.strip())
             if not chunk:
+                if last := splitter.end().strip():
+                    self._hear(last)
                 self._approver.lose_keyboard()
                 if self._conversation.is_paused:
                     self._conversation.stop("end of input")

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 STDIN = 0
 MAX_LINE_BYTES = 65_536
+"""What has more characters is answered as too long (`MOST_CHARACTERS` of `dialogue/utterances.py`)."""
 PASTE_S = 0.3
 """Lines that are pasted come at once; a terminal hands them on one by one."""
 GOODBYES = frozenset({"quit", "exit", "/quit", "/exit"})
@@ -68,6 +69,29 @@ def texts_in(lines: str) -> list[str]:
     return texts + joiner.let_go()
 
 
+class LineSplitter:
+    """Cuts what is read into lines. One that is too long stays so, for nobody to act on a part of it."""
+
+    def __init__(self) -> None:
+        self._rest = b""
+
+    def take(self, chunk: bytes) -> list[str]:
+        """Return the lines that are complete with `chunk`."""
+        *lines, rest = (self._rest + chunk).split(b"\n")
+        self._rest = rest[: MAX_LINE_BYTES + 1]
+        return [_as_text(line) for line in lines]
+
+    def end(self) -> str:
+        """Return the last line, which has no newline; "" where there is none."""
+        rest, self._rest = self._rest, b""
+        return _as_text(rest)
+
+
+def _as_text(line: bytes) -> str:
+    text = line[: MAX_LINE_BYTES + 1].decode("utf-8", errors="replace")
+    return text.strip().ljust(MAX_LINE_BYTES + 1, "…") if len(line) > MAX_LINE_BYTES else text
+
+
 class LineReader:
     """Hands every text to `on_line`, in a thread of its own: see `Joiner`. Texts that come at once have one `on_read`
     before them.
@@ -95,7 +119,7 @@ class LineReader:
         threading.Thread(target=self._read, name="input", daemon=True).start()
 
     def _read(self) -> None:
-        rest = b""
+        splitter = LineSplitter()
         while True:
             if self._joiner.is_holding and not select.select([STDIN], [], [], PASTE_S)[0]:
                 self._say(self._joiner.let_go())
@@ -103,18 +127,11 @@ class LineReader:
             if not chunk:
                 break
             self._on_read()
-            *lines, rest = (rest + chunk).split(b"\n")
-            for line in lines:
-                self._hand_on(line)
-            if len(rest) > MAX_LINE_BYTES:
-                self._hand_on(rest)
-                rest = b""
-        self._hand_on(rest)
+            for line in splitter.take(chunk):
+                self._say(self._joiner.take(line))
+        self._say(self._joiner.take(splitter.end()))
         self._say(self._joiner.let_go())
         self._ended.set()
-
-    def _hand_on(self, line: bytes) -> None:
-        self._say(self._joiner.take(line.decode("utf-8", errors="replace")))
 
     def _say(self, texts: list[str]) -> None:
         for text in texts:

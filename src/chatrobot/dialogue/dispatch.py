@@ -17,7 +17,7 @@ from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
+from chatrobot.dialogue.utterances import MOST_CHARACTERS, Utterance, UtteranceQueue
 from chatrobot.language.interpretation import Interpretation, Placement
 from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
@@ -68,6 +68,10 @@ class Dispatch:
         """Act on `utterance`, whose turn has come."""
         if self._utterances.is_void(utterance):
             self._drop(utterance)
+            return
+        if utterance.kind == "text" and len(utterance.text) > MOST_CHARACTERS:
+            reply = self._understanding.say("text_too_long", utterance.text, limit=MOST_CHARACTERS)
+            self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
         answer = self._proposals.answered(utterance)
         if answer is not None:

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from rich.console import Console, RenderableType
 
 from chatrobot.cli.console.controller import ChatController
-from chatrobot.cli.lines import PASTE_S
+from chatrobot.cli.lines import PASTE_S, LineSplitter
 from chatrobot.reflex import is_stop
 
 LEAST_WIDTH, READABLE_WIDTH = 40, 16
@@ -32,7 +32,7 @@ class Plain:
         self._code: int | None = None
         self._wake_read, self._wake_write = os.pipe()
         os.set_blocking(self._wake_write, False)
-        self._rest = b""
+        self._splitter = LineSplitter()
         self._edited_lines: list[str] | None = None
         self._edit_ends_with = ""
         self._pasted: list[str] = []
@@ -122,13 +122,14 @@ class Plain:
             self._leave_at_once()
             return
         if not data:
+            if last := self._splitter.end():
+                self._take(last)
             self._hand_on()
             self._controller.leave()
             return
         self._is_at_prompt = False
-        *lines, self._rest = (self._rest + data).split(b"\n")
-        for line in lines:
-            self._take(line.decode("utf-8", "replace"))
+        for line in self._splitter.take(data):
+            self._take(line)
         if len(self._pasted) == 1 and not self._may_go_on():
             self._hand_on()
 
