@@ -1,15 +1,18 @@
-"""Lines in, events out: no part of a line is an order."""
+"""Lines in, events out: no part of a line is an order, a yes is one to what was shown, `turn` names the line."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import pytest
 
 from chatrobot.cli.lines import MAX_LINE_BYTES, LineSplitter
 from chatrobot.dialogue.utterances import MOST_CHARACTERS
-from tests.cli.running import Command
+from tests.cli.running import Command, Done
 
 JSON = ("--json", "--world", "empty")
 FAST = (*JSON, "--fast")
+ASKED = (*FAST, "--approve")
 BLANKS = " " * MAX_LINE_BYTES
 ORDERED_AT_ITS_END = ("please do not move " * 10_000)[: 2 * MAX_LINE_BYTES] + "forward 1 m"
 TOO_LONG = [
@@ -19,6 +22,10 @@ TOO_LONG = [
     f"{BLANKS[11:]}forward 1 m, no",
     f'{{"text": "forward 1 m"}}{BLANKS}no',
 ]
+
+
+def outcomes(done: Done) -> dict[int, str]:
+    return {event["turn"]: event["outcome"] for event in done.named("result")}
 
 
 # --- lines that are too long ---
@@ -58,3 +65,64 @@ def test_the_longest_line_is_whole() -> None:
     longest = "x" * MAX_LINE_BYTES
     assert LineSplitter().take(f"{longest}\n".encode()) == [longest]
     assert len(longest) <= MOST_CHARACTERS
+
+
+# --- a yes in a pipe ---
+
+
+@pytest.mark.parametrize("flags", [ASKED, pytest.param((*JSON, "--approve"), marks=pytest.mark.realtime)])
+def test_where_the_input_has_ended_nobody_is_waited_for(chatrobot: Command, flags: tuple[str, ...]) -> None:
+    done = chatrobot.apart(*flags, stdin="forward 1 m\nturn left\n")
+    assert outcomes(done) == {1: "refused", 2: "refused"}
+    assert [event["reason"]["code"] for event in done.named("notice")] == ["nobody_approves"] * 2
+    assert {event["reason"]["code"] for event in done.named("result")} == {"not_approved"}
+    assert done.code == 4
+
+
+def test_in_simulated_time_the_next_line_answers_the_plan_that_waits(chatrobot: Command) -> None:
+    done = chatrobot.apart(*ASKED, stdin="forward 1 m\nyes\nforward 1 m\nno\n")
+    assert outcomes(done) == {1: "completed", 2: "answered", 3: "refused", 4: "answered"}
+    assert not done.named("notice")
+
+
+@pytest.mark.realtime
+def test_in_real_time_a_yes_that_came_before_its_plan_was_shown_is_told_so_and_moves_nothing(
+    chatrobot: Command,
+) -> None:
+    done = chatrobot.apart(*JSON, "--approve", stdin="forward 1 m\nyes\nforward 1 m\nno\n")
+    assert outcomes(done) == {1: "refused", 2: "answered", 3: "refused", 4: "answered"}
+    assert (
+        "came before the plan was shown" in next(e for e in done.named("result") if e["turn"] == 2)["reply"]
+    )
+    assert not done.named("started")
+
+
+def test_an_approve_that_came_before_its_question_approves_nothing(chatrobot: Command) -> None:
+    done = chatrobot.apart(*ASKED, stdin='{"approve": true}\nforward 1 m\n{"approve": true}\n')
+    assert outcomes(done) == {1: "refused"}
+    codes = [event["reason"]["code"] for event in done.named("notice")]
+    assert codes == ["nothing_asked", "nothing_asked", "nobody_approves"]
+
+
+def test_a_yes_to_what_was_shown_is_not_held_up_by_what_waits_behind_it(chatrobot: Command) -> None:
+    with chatrobot.start(*ASKED) as robot:
+        robot.say("forward 1 m\nturn left")
+        assert robot.event("rehearsed")["turn"] == 1
+        robot.say("yes")
+        assert robot.event("result", lambda event: event["turn"] == 1)["outcome"] == "completed"
+        assert robot.event("rehearsed")["turn"] == 2
+        assert robot.end() == 0
+        assert {event["turn"]: event.get("outcome") for event in robot.seen}[2] == "refused"
+
+
+# --- which result belongs to which line ---
+
+
+def test_results_may_come_out_of_order_and_turn_counts_the_texts(chatrobot: Command) -> None:
+    said = 'forward 1 m\n\n{"approve": true}\n{"text": "blorf"}\n{\ndo as follows:\n1. turn left\nquit\n'
+    done = chatrobot(*FAST, stdin=said)
+    results: list[dict[str, Any]] = done.named("result")
+    assert [(event["turn"], event["outcome"]) for event in results] == [
+        (2, "unclear"), (1, "completed"), (3, "completed"),
+    ]  # fmt: skip
+    assert {event["turn"] for event in done.named("notice")} == {0}

@@ -41,6 +41,13 @@ def test_the_end_of_file_is_a_no(tmp_path):
         assert terminal.wait_for_end() == 4
 
 
+def test_a_last_line_without_its_newline_is_an_answer(tmp_path):
+    with command(tmp_path, "do", "forward 1 m", "--approve", "--fast") as terminal:
+        terminal.wait_for(r"\[y/N\]")
+        terminal.type("y\x04\x04")
+        assert terminal.wait_for_end() == 0
+
+
 @pytest.mark.realtime
 def test_a_pause_that_is_typed_keeps_the_plan_and_continue_goes_on(tmp_path):
     with command(tmp_path, "do", "forward 1.5 m", "turn left") as terminal:

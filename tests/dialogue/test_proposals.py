@@ -366,9 +366,19 @@ def test_a_typed_yes_or_go_answers_the_plan_that_waits(answer: str, path_m: floa
 
 def test_a_yes_that_was_said_before_the_question_is_no_answer_to_it() -> None:
     talk = Talk(world="home", options=Options(approve=True))
+    turn = talk.session.say("drive forward 50 cm")
+    talk.session.say("yes")
+    talk.pump_until(lambda: 2 in talk.results())
+    assert "came before the plan was shown" in talk.results()[2].reply
+    assert talk.session.do("yes").outcome == "answered"
+    assert talk.session.see_through(turn).outcome == "completed"
+
+
+def test_only_what_was_said_after_the_question_answers_it_out_of_turn() -> None:
+    talk = Talk(world="home", options=Options(approve=True))
     talk.session.say("drive forward 50 cm")
     before_s = question.time.monotonic()
     talk.pump_until(lambda: any(isinstance(e, Rehearsed) and e.needs_approval for e in talk.events))
     awaits = talk.session._proposals.awaits
-    assert not awaits(Utterance(2, "yes", "text", before_s))
-    assert awaits(Utterance(2, "yes", "text", question.time.monotonic()))
+    assert not awaits(Utterance(3, "yes", "text", before_s))
+    assert awaits(Utterance(3, "yes", "text", question.time.monotonic()))

@@ -27,7 +27,7 @@ class Approver(Approval):
     def __init__(self, *, can_ask: bool, others_answer: bool = False) -> None:
         super().__init__()
         self._can_ask = can_ask
-        self._others_answer = others_answer
+        self.others_answer = others_answer
         self._has_asked = False
         self._world: World | None = None
         self._edited = ""
@@ -51,9 +51,9 @@ class Approver(Approval):
         """Answer what waits, if there is an answer by now. Never blocks."""
         if self.turn is None:
             return
-        if self._can_ask:
+        if self._can_ask or not self._lines.empty():  # an answer may be the last that was typed
             self._ask(session)
-        elif not self._others_answer:
+        elif not self.others_answer:
             print(
                 "chatrobot: Approval needed, but stdin is not a terminal. Pass --yes to skip it.",
                 file=sys.stderr,

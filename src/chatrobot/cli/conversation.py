@@ -166,8 +166,19 @@ class Conversation:
         """See everything through that was heard."""
         while not (self.session.is_idle and self._posted.empty()):
             if self.session.waits_for_a_word and self._posted.empty():
-                self.session.stop("end of input")  # nobody is left to go on with what is paused
+                self._give_up()
             self.step()
+
+    def _give_up(self) -> None:
+        """Nobody is left to say yes to what waits for one, or to go on with what is paused."""
+        turn = self._approver.turn
+        if turn is None:
+            self.session.stop("end of input")
+        elif self._approver.others_answer:
+            self.show(
+                Notice(turn, Reason("nobody_approves"), "the input has ended, and nobody is left to say yes")
+            )
+            self._approver.answer(self.session, False)
 
     def step(self) -> None:
         """Let things happen for a moment.
@@ -180,9 +191,7 @@ class Conversation:
             self._is_cut_off = True
             self.session.stop("nobody reads")
         self._approver.poll(self.session)
-        is_asking = self._approver.turn is not None and not self.session.is_being_paused
-        waits = is_asking or self.session.waits_for_a_word
-        if self._setup.fast and waits and self._wait_for_posted():
+        if self._setup.fast and self.session.waits_for_a_word and self._wait_for_posted():
             return  # a virtual half minute is over before a person has read the question: time stands
         self.session.pump(PUMP_S)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from dataclasses import replace
 from typing import Any
 
 from chatrobot.cli.approver import Approver
@@ -30,6 +31,8 @@ def run(args: argparse.Namespace) -> int:
 
     printer = printer_for(args)
     approver = Approver(can_ask=False, others_answer=args.json)
+    if args.json and args.fast:  # time stands while a line waits: none is early
+        setup = replace(setup, options=replace(setup.options, answers_in_turn=True))
     with Conversation(setup, printer, approver, recorded(args)) as conversation:
         if isinstance(printer, HumanPrinter):
             conversation.session.on_said = printer.note_said
@@ -38,8 +41,7 @@ def run(args: argparse.Namespace) -> int:
         reader = LineReader(hear, lines.note_read)
         reader.start()
         while not (conversation.is_leaving or conversation.has_parted or reader.has_ended):
-            session = conversation.session
-            conversation.wait() if session.is_idle or session.waits_for_a_word else conversation.step()
+            conversation.wait() if conversation.session.is_idle else conversation.step()
         conversation.finish()
         if conversation.has_parted:  # what came with the goodbye is named
             reader.wait(PASTE_S)
@@ -85,13 +87,22 @@ class JsonInput:
         if isinstance(text, str) and text.strip():
             self._conversation.hear(text)
         elif isinstance(yes, bool):
-            approved = yes
-            self._conversation.post(lambda: self._approver.answer(self._conversation.session, approved))
+            asked, approved = self._approver.turn, yes
+            self._conversation.post(lambda: self._answer(asked, approved))
         else:
             notice = Notice(
                 0, Reason("bad_input_line", {"line": line[:80]}), 'not {"text": …} nor {"approve": …}'
             )
             self._conversation.post(lambda: self._conversation.show(notice))
+
+    def _answer(self, asked: int | None, yes: bool) -> None:
+        """Answer what was asked when the line came; a plan that is shown later was not meant."""
+        if asked is None or asked != self._approver.turn:
+            self._conversation.show(
+                Notice(0, Reason("nothing_asked"), "no plan waited for a yes when this line came")
+            )
+        else:
+            self._approver.answer(self._conversation.session, yes)
 
 
 def _read_object(line: str) -> dict[str, Any]:

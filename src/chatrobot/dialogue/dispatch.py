@@ -73,7 +73,7 @@ class Dispatch:
             reply = self._understanding.say("text_too_long", utterance.text, limit=MOST_CHARACTERS)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
-        answer = self._proposals.answered(utterance)
+        answer = self._proposals.answered(utterance, in_turn=self._goals.options.answers_in_turn)
         if answer is not None:
             self._act_on(utterance, answer)
         elif utterance.kind == "resume" or (utterance.kind == "text" and self._goes_on(utterance.text)):

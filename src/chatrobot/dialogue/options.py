@@ -18,6 +18,7 @@ class Options:
     but for a few seconds of the tutorial's form; `rehearse_only` moves nothing. Of programs,
     `ask_findings` asks where rehearsal found something, `ask_new` before each that was written just now.
     `interpreter`: who understands; with `auto` a model is asked what is not understood without it.
+    `answers_in_turn`: a yes counts in its turn, though it was said before its plan was shown.
     `language`: the one to speak before anything was said.
     """
 
@@ -27,5 +28,6 @@ class Options:
     rehearse_only: bool = False
     ask_findings: bool = True
     ask_new: bool = False
+    answers_in_turn: bool = False
     interpreter: Interpreter = "auto"
     language: LanguageCode = "en"

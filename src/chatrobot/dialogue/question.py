@@ -46,6 +46,11 @@ class Question:
             self._asked = None
         return False
 
+    def forget(self, turn: int) -> None:
+        """Note that the plan of that turn has been answered."""
+        if self.turn == turn:
+            self._asked = None
+
     def answer(self, session: Session, yes: bool, *, edited: bool = False) -> bool:
         """Answer it, once; return whether something waited. `edited`: another plan takes its place.
 
@@ -83,14 +88,14 @@ class Proposals:
         approve: Callable[[int, bool], None],
     ) -> None:
         self._understanding, self._approve = understanding, approve
-        self._rehearsed, self._asked_at_s = Question(), 0.0
+        self.rehearsed, self._asked_at_s = Question(), 0.0
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
         self._driving: frozenset[int] = frozenset()
 
     def declines_motion(self, text: str) -> bool:
         """Return whether `text` says no to what moves, and not to an offer, or a plan that waits. From any thread."""
-        is_asked = self._offered is not None or (self._rehearsed.turn is not None and not self._driving)
+        is_asked = self._offered is not None or (self.rehearsed.turn is not None and not self._driving)
         return not is_asked and read_consent(text) is False
 
     def hear(self, event: Event) -> None:
@@ -98,11 +103,11 @@ class Proposals:
 
         What a later text asks back about is what a yes then answers, and no rehearsed plan that waits for one.
         """
-        waiting = self._rehearsed.turn
+        waiting = self.rehearsed.turn
         asks = isinstance(event, Result) and event.outcome in ("unclear", "refused")
         if asks and waiting is not None and event.turn > waiting:
             self._approve(waiting, False)
-        if self._rehearsed.hear(event):
+        if self.rehearsed.hear(event):
             self._asked_at_s = time.monotonic()
         if isinstance(event, Result) and event.proposal is not None:
             approval = Approval(time.monotonic(), event.pose or self._understanding.pose)
@@ -120,17 +125,28 @@ class Proposals:
             self._driving -= {event.turn}
 
     def awaits(self, utterance: Utterance) -> bool:
-        """Return whether it answers a rehearsed plan that waits for a yes, and was said after the question."""
-        is_asked = self._rehearsed.turn is not None and utterance.at_s >= self._asked_at_s
-        is_last = self._offered is None and utterance.kind == "text"
-        return is_asked and is_last and read_consent(utterance.text) is not None
+        """Return whether it answers a rehearsed plan that waits for a yes: said after the question, or next after what
+        the plan was made of."""
+        turn = self.rehearsed.turn
+        if turn is None or self._offered is not None or utterance.kind != "text":
+            return False
+        is_next = utterance.turn == turn + 1
+        return (is_next or not self._is_early(utterance)) and read_consent(utterance.text) is not None
 
-    def answered(self, utterance: Utterance) -> Interpretation | None:
-        """Return what `utterance` means as the answer to the offer; None where it is none. The offer is then over."""
+    def _is_early(self, utterance: Utterance) -> bool:
+        return utterance.at_s < self._asked_at_s
+
+    def answered(self, utterance: Utterance, *, in_turn: bool = False) -> Interpretation | None:
+        """Return what `utterance` means as the answer to the offer; None where it is none. The offer is then over.
+
+        A yes that was said before its plan was shown is none, unless it counts `in_turn`.
+        """
         language = self._understanding.language
         if self.awaits(utterance):  # a `go` is no order to drive then
             agrees = read_consent(utterance.text) is True
-            self._approve(self._rehearsed.turn or 0, agrees)
+            if agrees and self._is_early(utterance) and not in_turn:
+                return Interpretation("answered", say(language, "yes_too_early"), language)
+            self._approve(self.rehearsed.turn or 0, agrees)
             code = "approved" if agrees else "offer_declined"
             return Interpretation("answered", say(language, code), language)
         offered, self._offered = self._offered, None

@@ -193,6 +193,7 @@ class Session:
 
     def approve(self, turn: int, yes: bool, *, edited: bool = False) -> None:
         """Answer a rehearsed plan that waits for a yes; `edited`: a person has another one asked about in its place."""
+        self._proposals.rehearsed.forget(turn)
         self._link.send("approve", turn, yes=yes, **({"edited": True} if edited else {}))
 
     @property
@@ -222,8 +223,10 @@ class Session:
 
     @property
     def waits_for_a_word(self) -> bool:
-        """True while a plan is paused, and nothing happens before somebody says something."""
-        return self.is_paused and not self._llm.is_calling and self._find_next() is None
+        """True while a plan is paused or asked about, and nothing happens before somebody says something."""
+        is_asked = self._proposals.rehearsed.turn is not None and not self.is_being_paused
+        waits = is_asked or (self.is_paused and not self._llm.is_calling)
+        return waits and self._find_next() is None
 
     @property
     def is_idle(self) -> bool:

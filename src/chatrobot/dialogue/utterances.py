@@ -240,7 +240,8 @@ class NextUtterance:
             if replaces and utterance.turn != waiting_turn:
                 return utterance
             if self._requests.is_any_with_motion:
-                return self._early.find(waiting[number:])
+                answers = (one for one in waiting[number:] if self._awaits(one))
+                return next(answers, None) or self._early.find(waiting[number:])
             if not self._llm.is_busy or self._overtakes(utterance):
                 return utterance
         return None
