@@ -73,6 +73,17 @@ events out. At the [nodes](nodes.md) the same objects are on `chatrobot/events`,
 
 * A turn: `interpreted`, `rehearsed`, `started`, `progress` …, `result`. `result` is its last event. A turn that moves
   nothing has no `started`; a plan that a model streams has `streamed` before `interpreted`.
+* **Lines in** are texts, `{{"text": …}}` for a text with line breaks, or `{{"approve": true}}` (or false) for the plan
+  that waits for a yes. A line of more than 65,536 bytes is answered as too long, and nothing of it is done.
+* **Which line a result belongs to: `turn`.** It counts the lines with a text, from 1. These have no number: blank
+  lines; `approve`; what is JSON of no known form (a `notice` of turn 0 tells); `quit` and `exit`, where they
+  end the input. A list that comes with its heading (`Do as follows:`, `1. forward 1 m`) is one text with it.
+* **Results may come out of the order of the lines**: what nobody understands is answered while a line before it still
+  runs, and so is one too many of those that wait; a yes has its result before the plan that it starts.
+* **A yes counts once its plan was shown**, with `rehearsed` and `needs_approval`. A line `yes` that came before is told
+  so and approves nothing (but with `--fast`, where the line behind the plan's own answers it); an `approve` that came
+  before is a `notice` (`nothing_asked`). Where the input has ended and nobody is left to say yes, the plan is refused
+  (`notice`: `nobody_approves`).
 * A number that is NaN or infinite is null. Keys may be added; none is renamed or removed.
 * A **pose** is `{{x_m, y_m, yaw_rad}}` (m, rad), a **twist** `{{vx_mps, vy_mps, wz_radps}}` (m/s, rad/s), as odometry
   measures them: x forward, y left, counter-clockwise positive. A **reason** is `{{code, …}}`: a code, which stays from
