@@ -124,7 +124,6 @@ def test_the_motion_before_is_changed_as_said(turns: list[str], plan: str) -> No
         ["forward 30 cm", "3 more"],  # centimetres or rounds?
         ["前进八十厘米", "再走二"],
         ["back 40 cm", "back the same distance"],  # once more, or to where it came from?
-        ["forward 1 m, left 90", "the turn again"],  # and what of the drive?
         ["forward 1 m, slide left 1 m", "and back a metre"],  # to where it came from, or backwards?
         ["turn left 30", "five more"],
         ["forward 1 m", "10 degrees back"],

@@ -56,10 +56,6 @@ def test_a_correction_that_may_mean_two_things_is_asked_about(before: str, said:
     assert conversation(before).say(said).outcome == "unclear"
 
 
-def test_once_more_after_a_correction_is_asked_about() -> None:
-    assert conversation("turn left 30 degrees", "no, I meant right").say("once more").outcome == "unclear"
-
-
 def test_undoing_a_correction_takes_back_the_correction() -> None:
     pose = conversation("turn left 90 degrees", "no, I meant right", "undo").track.pose
     assert math.degrees(pose.yaw_rad) == pytest.approx(90.0)

@@ -126,8 +126,6 @@ from tests.language.dialogue_runner import check_nothing_done
         ("转一圈", "同学们再来一次"),
         ("drive 1 m", "Rewind that bit, I missed the goal."),
         ("drive 2 m", "Same again, landlord, and a packet of crisps."),
-        ("前进一米", "左转", "全部再来一次"),
-        ("前进一米", "左转", "整套动作再来一遍"),
         ("前进一米", "过头半米"),
         ("前进一米", "回到那里"),
         ("左转", "让你右转你左转"),

@@ -84,7 +84,8 @@ def test_the_executables_run_under_the_python_that_ran_colcon(workspace: Workspa
 def test_a_line_typed_at_input_drives_the_robot(rig: Tutorial) -> None:
     before = rig.pose()
     said_s = rig.input.say("forward 1 m")
-    assert rig.result(said_s)["outcome"] == "completed"
+    result = rig.result(said_s)
+    assert result["outcome"] == "completed", result
     after = rig.pose()
     assert math.hypot(after.x_m - before.x_m, after.y_m - before.y_m) == pytest.approx(1.0, abs=0.03)
     rig.input.wait_for_line("1.00 m")

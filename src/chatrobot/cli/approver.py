@@ -63,8 +63,9 @@ class Approver(Approval):
     def _ask(self, session: Session) -> None:
         if not self._has_asked:
             self._draw_way()
-            print(self.prompt, end="", file=sys.stderr, flush=True)
-            self._has_asked = True
+            print(self.prompt, end="", file=sys.stderr)
+            self._has_asked = True  # before it is seen: who sees it may answer at once
+            sys.stderr.flush()
         with contextlib.suppress(queue.Empty):
             self._take(session, self._lines.get_nowait())
 

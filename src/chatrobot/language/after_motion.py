@@ -211,6 +211,12 @@ def _looks_aside(dialogue: Dialogue) -> bool:
     return abs(off_rad) > FAR_RAD / 4
 
 
+def _has_turned(dialogue: Dialogue) -> bool:
+    """Whether a turn was part of the last motion, and no place its goal."""
+    steps = _steps(dialogue.last_motion)
+    return any(isinstance(step, Turn) for step in steps) and not any(isinstance(step, Go) for step in steps)
+
+
 def _not_straight(dialogue: Dialogue) -> bool:
     """Whether the last motion was more, or something else, than one drive."""
     steps = _steps(dialogue.last_motion)
@@ -234,6 +240,8 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "taught": _is_taught,
     "several": lambda dialogue: _is_several(dialogue) and not _not_straight(dialogue),
     "not_straight": _not_straight,
+    "turned": _has_turned,
+    "sequence": lambda dialogue: len(_steps(dialogue.last_motion)) > 1,
     "aside": _looks_aside,
     "just": lambda dialogue: dialogue.turns[-1].plan is not None,
     "turns": lambda dialogue: len(dialogue.ledger.done) > 1,

@@ -326,7 +326,7 @@ def a_bit_of(dialogue: Dialogue, whole: Frame, pace: Pace) -> Step:
     was_bit = last is not None and any(atom.value == "bit" for atom in atoms_said(last.text))
     part = 0.5 if "bit" in whole.flags and not was_bit else 1.0
     if len(steps) == 1 and isinstance(step, Drive):
-        bit_m = min(pace.distance_m / 2, part * (step.distance_m or math.inf))  # no more than there was
+        bit_m = min(pace.distance_m / 2, step.distance_m or math.inf)  # no more than there was
         return dataclasses.replace(step, distance_m=bit_m, duration_s=None)
     if len(steps) == 1 and isinstance(step, Turn):
         bit_rad = min(pace.turn_rad / 2, part * (step.angle_rad or math.inf))

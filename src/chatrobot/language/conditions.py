@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.lexicon import cut, lexicon
 from chatrobot.language.numbers import read_number
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -23,6 +24,13 @@ def _words() -> dict[str, str]:
         for name, listed in load_table(lang, "sums").items()
         for word in listed
     }
+
+
+def is_condition(problem: Unclear) -> bool:
+    """Whether a condition is what was not understood: `if something is ahead, turn around`."""
+    words, said = lexicon().words, cut(problem.part) if problem.code == "unknown_part" else ()
+    meaning = words.get(said) or words.get(said[:1]) or (("", ""),)
+    return meaning[0][0] == "condition"
 
 
 def settle_condition(atoms: Sequence[Atom]) -> list[Atom]:

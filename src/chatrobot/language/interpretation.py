@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple, get_args
 
 from chatrobot.core.event import Proposal
+from chatrobot.language.conditions import is_condition
 from chatrobot.language.ledger import Walk
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
@@ -167,7 +168,7 @@ def asked_back(problem: Unclear, language: LanguageCode, before: str = "") -> In
     if problem.code == "nothing_before" and before:
         reply = say(language, "nothing_in_before", before=before[:_QUOTED])
     else:
-        reply = say(language, problem.code, part=problem.part)
+        reply = say(language, "conditional" if is_condition(problem) else problem.code, part=problem.part)
     return Interpretation(
         outcome, reply, language, unaccounted=problem.part, code=problem.code, open_text=problem.open_text
     )
