@@ -122,6 +122,8 @@ def test_what_a_follow_up_most_likely_means_is_proposed(before: str, said: str, 
         ("drive 10,5 cm", "drive 0.105 m"),
         ("turn right 22,5°", "turn right 22.5 deg"),
         ("turn left 90,2 m forward", "turn left 90 deg\ndrive 2 m"),
+        ("fahr 1,5 Meter mit einem Zehntel Meter pro Sekunde", "drive 1.5 m at 0.1 m/s"),
+        ("fahr ein Fünftel Meter vor", "drive 0.2 m"),
     ],
 )
 def test_a_decimal_comma_is_read_beside_anything_else(text: str, plan: str) -> None:
@@ -160,8 +162,28 @@ def test_an_amount_that_is_put_right_after_the_side_was_is_one_of_that_side() ->
         (("use 0.1 m/s", "turn left", "forward 50 cm"), "drive 0.5 m at 0.1 m/s"),
         (("fahr langsam 1 m", "wieder normal", "fahr 1 m"), "drive 1 m at 0.3 m/s"),
         (("forward 1 m", "undo", "redo"), "drive 1 m"),
+        ((LEGS, "do the third step again", "now the first one again"), "drive 1 m"),
+        ((BEINE, "mach den dritten Schritt noch mal", "und jetzt den ersten, aber rückwärts"), "drive 1 m back"),
+        ((STEPS, "第三步再做一次", "第一步也再做一次给他看"), "drive 1 m"),
+        (("reverse 35 cm", "Not far enough, is it. Same again but 15 cm more this time."), "drive 0.5 m back"),
+        (("后面的测试线速度一律0.2 m/s", "前进1 m"), "drive 1 m at 0.2 m/s"),
         (("let's play: when I say banana turn left 90", "banana"), "turn left 90 deg"),
     ],
 )  # fmt: skip
 def test_everything_that_was_done_and_the_pace_are_kept_over_turns(turns: tuple[str, ...], plan: str) -> None:
     assert done(*turns) == plan
+
+
+@pytest.mark.parametrize(
+    ("text", "plan"),
+    [
+        ("fahr 80 cm vor, die Kinder warten schon", "drive 0.8 m"),  # and waits for nothing
+        (
+            "前进1米再后退1米算一个循环,连做2个循环,每个循环结束静置2秒",
+            "\n".join(["drive 1 m\ndrive 1 m back\nwait 2 s"] * 2),
+        ),
+        ("前进1米再后退1米,连做2遍,每做完一遍停2秒", "\n".join(["drive 1 m\ndrive 1 m back\nwait 2 s"] * 2)),
+    ],
+)
+def test_waits_are_where_they_are_told(text: str, plan: str) -> None:
+    assert done(text) == plan

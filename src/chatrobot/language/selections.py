@@ -66,6 +66,8 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
     table, said = load_table(language, "selections"), found.groupdict(default="")
     kind = kind_named(said.get("kind", ""), language)
     at, count = number_said(said, "nth", table), number_said(said, "count", table) or 1
+    if at > 0:
+        dialogue = _of_sequence(dialogue, language)
     units = _units(dialogue, kind, language, with_corners=kind == "leg" and count > 1)
     last = dialogue.last_motion
     if kind in ("step", "move") and last is not None and len(shapes_said(last.text)) > 1:
@@ -86,6 +88,15 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
     while kind == "leg" and not is_of_kind(steps[-1], kind):
         steps.pop()
     return steps
+
+
+def _of_sequence(dialogue: Dialogue, language: str) -> Dialogue:
+    """The dialogue up to a sequence of which only parts were done since: `do the third step again`, `now the first`."""
+    turns = dialogue.turns
+    while turns and (turns[-1].plan is None or pointed_at(plain_text(turns[-1].text), language) is not None):
+        turns = turns[:-1]
+    is_sequence = bool(turns) and turns[-1].plan is not None and len(turns[-1].plan.steps) > 1
+    return replace(dialogue, turns=turns) if is_sequence else dialogue
 
 
 def part_of_before(
