@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from chatrobot.cli.lines import MAX_LINE_BYTES, LineSplitter
-from chatrobot.dialogue.utterances import MOST_CHARACTERS
+from chatrobot.link.envelope import MOST_CHARACTERS
 from tests.cli.running import Command, Done
 
 JSON = ("--json", "--world", "empty")

@@ -12,7 +12,6 @@ from tests.dialogue.scripted_model import ModelOptions, ModelTalk, Options
 from chatrobot.core.events import Interpreted, ModelCalled, Streamed
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.understanding import Instruction
-from chatrobot.dialogue.utterances import MOST_CHARACTERS
 from chatrobot.language.interpretation import Interpretation
 
 ASKED = "please do something nice"
@@ -64,13 +63,6 @@ def test_offline_asks_nobody_and_model_asks_about_everything() -> None:
     talk = ModelTalk(PLAN, options=Options(interpreter="model"))
     assert talk.do("forward 5 m").pose.x_m == pytest.approx(0.5, abs=0.02)
     assert len(talk.model.asked) == 1
-
-
-def test_a_line_that_was_cut_is_shown_to_no_model() -> None:
-    talk = ModelTalk("drive 1 m")
-    for text in ("forward 1 m", "write a program that drives 1 m"):
-        assert talk.do(text.ljust(MOST_CHARACTERS + 1, "…")).outcome == "unclear"
-    assert talk.model.asked == []
 
 
 def test_without_a_model_the_answer_tells_how_to_set_one_up() -> None:

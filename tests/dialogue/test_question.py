@@ -9,6 +9,7 @@ from chatrobot.core.events import Event, Finished, Paused, Progress, Rehearsed, 
 from chatrobot.core.geometry import ORIGIN
 from chatrobot.dialogue.question import Question
 from chatrobot.language.consent import read_consent, wants_to_edit
+from chatrobot.link.envelope import MOST_CHARACTERS
 
 ASKED = "please do something nice"
 PLAN = "drive 0.5 m\nturn left 90 deg"
@@ -225,3 +226,10 @@ def test_what_was_driven_before_a_pause_is_told_where_the_rest_is_not_approved()
     told = talk.session.results[turn]
     assert (told.outcome, told.has_moved) == ("refused", True)
     assert f"drove {told.path_m:.2f} m of 1.00 m" in told.reply
+
+
+def test_a_line_that_was_cut_is_shown_to_no_model() -> None:
+    talk = ModelTalk("drive 1 m")
+    for text in ("forward 1 m", "write a program that drives 1 m"):
+        assert talk.do(text.ljust(MOST_CHARACTERS + 1, "…")).outcome == "unclear"
+    assert talk.model.asked == []

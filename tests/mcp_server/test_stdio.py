@@ -43,11 +43,6 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
             assert rehearsed["rehearsed"]["length_m"] == pytest.approx(0.4, abs=0.01)
             assert not agent.wire.velocities.all or not any(any(t) for _, t in agent.wire.velocities.all)
 
-            for wrong in ({"rehearse": True}, {"speed_mps": 0.05}):
-                refused = await agent.data("instruct", text="forward 10 cm", **wrong)
-                assert refused["reason"]["code"] == "bad_arguments"
-            assert not any(any(twist) for _, twist in agent.wire.velocities.all), "nothing moves"
-
             shown = text_of(await agent.call("rehearse", text="forward 40 cm, then left"))
             assert "Plan: drive 0.4 m; turn left 90 deg" in shown, "many models see no more than this"
 
@@ -82,6 +77,18 @@ def test_an_agent_rehearses_drives_looks_and_cancels(tmp_path: Path) -> None:
     ended = [event["outcome"] for _, event in recording.events if event["event"] == "result"]
     assert ended == ["completed", "completed", "completed", "stopped", "completed"]
     assert max(odometry.x_m for _, odometry in recording.odometry) == pytest.approx(0.4, abs=0.03)
+
+
+def test_an_argument_that_a_tool_does_not_have_moves_nothing(tmp_path: Path) -> None:
+    async def task() -> None:
+        async with over_stdio(tmp_path) as agent:
+            await agent.data("observe")
+            for wrong in ({"rehearse": True}, {"speed_mps": 0.05}):
+                refused = await agent.data("instruct", text="forward 10 cm", **wrong)
+                assert refused["reason"]["code"] == "bad_arguments"
+            assert not any(any(twist) for _, twist in agent.wire.velocities.all)
+
+    anyio.run(task)
 
 
 def test_which_robot_it_is_can_be_read_before_the_first_call(tmp_path: Path) -> None:

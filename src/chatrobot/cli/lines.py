@@ -10,9 +10,10 @@ import threading
 import time
 from collections.abc import Callable
 
+from chatrobot.link.envelope import MOST_CHARACTERS
+
 STDIN = 0
-MAX_LINE_BYTES = 65_536
-"""What has more characters is answered as too long (`MOST_CHARACTERS` of `dialogue/utterances.py`)."""
+MAX_LINE_BYTES = MOST_CHARACTERS
 PASTE_S = 0.3
 """Lines that are pasted come at once; a terminal hands them on one by one."""
 GOODBYES = frozenset({"quit", "exit", "/quit", "/exit"})

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
     from chatrobot.web.server import WebServer
 
 PORT, MOST_TRIED = 8080, 20
-_ANYWHERE = ("0.0.0.0", "::")
-"""Hosts that listen at every address of this machine."""
+_ANYWHERE = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}
+"""Hosts that listen at every address of this machine, and the one of them that it has for itself."""
 Sockets = tuple[socket.socket, socket.socket]
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]{4,128}")
 
@@ -287,7 +287,7 @@ def _tell(
         ]
 
     links = links_by(_reachable(args.host))
-    here = links_by("127.0.0.1")[0] if args.host in _ANYWHERE else links[0]
+    here = links_by(_ANYWHERE[args.host])[0] if args.host in _ANYWHERE else links[0]
     print(web_words(language, "teacher_address" if args.pupils else "address", url=links[0]), flush=True)
     if access.needs_token:
         import segno

@@ -17,12 +17,12 @@ from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.dialogue.utterances import MOST_CHARACTERS, Utterance, UtteranceQueue
+from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.interpretation import Interpretation, Placement
 from chatrobot.language.phrases import say
 from chatrobot.language.resuming import wants_to_resume
 from chatrobot.language.shape_parts import asks_for_rest
-from chatrobot.link.envelope import OBSTACLE_RADIUS_M
+from chatrobot.link.envelope import MOST_CHARACTERS, OBSTACLE_RADIUS_M
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan

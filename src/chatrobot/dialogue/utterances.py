@@ -32,8 +32,6 @@ Kind = Literal[
     "text", "plan", "edited_plan", "program", "draft", "source", "stop", "emergency_stop", "pause", "resume",
     "too_many",
 ]  # fmt: skip
-MOST_CHARACTERS = 65_536
-"""Of one text; a reader of lines may have cut what is longer, so nothing of it is done."""
 INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
 _OUTSIDE_STOPS = (STOP_COMMAND, STOP_TOPIC)

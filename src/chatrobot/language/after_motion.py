@@ -212,9 +212,10 @@ def _looks_aside(dialogue: Dialogue) -> bool:
 
 
 def _has_turned(dialogue: Dialogue) -> bool:
-    """Whether a turn was part of the last motion, and no place its goal."""
+    """Whether a turn was part of the last motion, and no place its goal, or it was a slide."""
     steps = _steps(dialogue.last_motion)
-    return any(isinstance(step, Turn) for step in steps) and not any(isinstance(step, Go) for step in steps)
+    turned = any(isinstance(step, Turn) for step in steps) and not any(isinstance(step, Go) for step in steps)
+    return turned or _is_slide(dialogue)
 
 
 def _not_straight(dialogue: Dialogue) -> bool:
@@ -240,6 +241,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "taught": _is_taught,
     "several": lambda dialogue: _is_several(dialogue) and not _not_straight(dialogue),
     "not_straight": _not_straight,
+    "off_line": lambda dialogue: _not_straight(dialogue) or _is_slide(dialogue),
     "turned": _has_turned,
     "sequence": lambda dialogue: len(_steps(dialogue.last_motion)) > 1,
     "aside": _looks_aside,

@@ -105,10 +105,7 @@ class OfflineInterpreter:
         try:
             said, context = as_meant_after(with_told_apart(whole, language), language, context)
         except Unclear as problem:
-            read = partial(self._interpreted, language=language, context=context)
-            return remarked(whole, Reading(language, context, self._profile), read) or asked_back(
-                problem, language
-            )
+            return self._remarked(whole, language, context) or asked_back(problem, language)
         said = to_taught(said, language, context)
         text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
         meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
@@ -134,12 +131,16 @@ class OfflineInterpreter:
             reading = Reading(language, context, self._profile)
             asked = (
                 misspelt_place(problem, text, reading)
-                or remarked(text, reading, partial(self._interpreted, language=language, context=context))
+                or self._remarked(text, language, context)
                 or (meant if meant is not None and meant.proposal is not None else None)
                 or self._likeliest(problem, text, reading)
             )
             asked = asked or asked_back(problem, told_in(text, language, context), context.dialogue.last_text)
             return replace(asked, corrects=says_meant(text))
+
+    def _remarked(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
+        read = partial(self._interpreted, language=language, context=context)
+        return remarked(text, Reading(language, context, self._profile), read)
 
     def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:
         """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises."""
@@ -153,11 +154,9 @@ class OfflineInterpreter:
             return None
         language, change = in_known_words(change, context)
 
-        def meant(part: str, own: Context) -> Interpretation:
-            return self._meant(part, language, own)
-
+        reading = Reading(language, context, self._profile)
         with contextlib.suppress(Unclear):
-            return amended(change, plan, Reading(language, context, self._profile), meant)
+            return amended(change, plan, reading, lambda part, own: self._meant(part, language, own))
         return None
 
     def _likeliest(self, problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
@@ -193,11 +192,10 @@ class OfflineInterpreter:
         def meant(part: str, own: Context) -> Interpretation:
             return self._meant(part, language, own)
 
-        def interpreted(part: str, own: Context) -> Interpretation:
-            return self._interpreted(part, language, own)
-
         reading = Reading(language, context, self._profile)
-        found = of_held(text, reading, meant, interpreted) or of_offered(text, reading, meant)
+        found = of_held(
+            text, reading, meant, lambda part, own: self._interpreted(part, language, own)
+        ) or of_offered(text, reading, meant)
         return found or of_taught(text, reading, meant)
 
     def _ordered(self, text: str, language: LanguageCode, context: Context) -> Interpretation:

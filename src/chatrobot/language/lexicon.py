@@ -13,6 +13,7 @@ from typing import Any
 
 from chatrobot.language.compiled import Key, PhraseTable, by_first, compiled
 from chatrobot.language.data_files import LANGUAGES, expand, load_table
+from chatrobot.language.normalise import COMMA
 
 FILES = (
     "numbers", "units", "motion", "shapes", "dialogue", "refusals", "corrections", "asides", "compass",
@@ -72,7 +73,6 @@ _FOLD = re.compile(
     r"[x*] ?(\d{1,2})(?= ?(?:$|[;,!。]))"
 )
 _INCHES, _FEET = re.compile(r"(\d)\s?\""), re.compile(r"(\d)\s?'(?![a-z])")
-_COMMA = re.compile(r"(?<![\d.,])(\d),(\d{1,2})(?![\d,])")
 _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)\b")
 
 
@@ -81,7 +81,7 @@ def cut(text: str) -> Key:
     text = _LISTED.sub(" ; ", text)
     if text.count('"') == 1 or (text.count("'") == 1 and _FEET.search(text)):
         text = _FEET.sub(r"\1 feet ", _INCHES.sub(r"\1 inches ", text))
-    text = _FOLD.sub(r"\1, \2 times", _COMMA.sub(r"\1.\2", text))
+    text = _FOLD.sub(r"\1, \2 times", COMMA.sub(".", text))
     return tuple(UNIT.findall(_ORDINAL.sub(r"\1", _SIGN.sub(" minus ", text)).replace("-", " ")))
 
 

@@ -35,11 +35,12 @@ _QUOTES = str.maketrans(
 )
 _CIRCLED = re.compile(r"[①-⑳❶-❿⑴-⒇]")
 _GROUPED = re.compile(r"(?<![\d.,])([1-9]\d{0,2}(?:\.\d{3})+),(\d+)(?![\d,.])")
-_COMMA = re.compile(
+COMMA = re.compile(
     r"(?:(?<=^\d)|(?<=[^\d.,]\d)),(?=\d{1,2}(?![\d,]))|(?<=\d\d),(?=\d ?(?:[cm]m|centi|milli|deg|°|厘米|公分|毫米|度))"
 )
+"""A decimal comma: `2,35 m`, `10,5 cm`."""
 _WITH_UNIT = re.compile(r"\d,\d{1,2} ?[a-z°厘公毫分米度秒]")
-"""A decimal comma, as `10,5 cm`; where a unit stands behind one of them, all that stand so are: not `go to 1,1`."""
+"""Where a unit stands behind one of them, all commas between digits are decimal ones: not so in `go to 1,1`."""
 _RAISED = re.compile(r"(?<=\d)(?=[⁰¹²³⁴-⁹])")
 _ELLIPSIS = re.compile(r"\.{2,}|…+")
 _HAN = re.compile(r"[\u3400-\u9fff]")
@@ -70,7 +71,7 @@ def normalise(text: str) -> str:
     text = text.replace("\ue000", "…").replace("⁄", "/").translate(_simplified()).lower()
     text = _retroflex().sub("", _REDOUBLED.sub(r"\1", text))
     text = _GROUPED.sub(lambda found: f"{found[1].replace('.', '')}.{found[2]}", text)  # 1.000,5
-    text = _COMMA.sub(".", text) if _WITH_UNIT.search(text) else text
+    text = COMMA.sub(".", text) if _WITH_UNIT.search(text) else text
     kept = [c if _kept(c) else "" if c in _UNSEEN or unicodedata.category(c) == "Cf" else " " for c in text]
     return _SPACES.sub(" ", "".join(kept)).strip()
 

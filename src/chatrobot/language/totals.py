@@ -56,9 +56,8 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
         return [Drive(-missing, direction_rad=math.remainder(step.direction_rad + math.pi, 2 * math.pi))]
     angle = whole.q.get("angle") or whole.q.get("turns")
     if angle and isinstance(step, Turn) and len(steps) == 1:
-        is_back = (moved.yaw_rad > 0.0) != step.left and is_correction(
-            last
-        )  # `no, right`: turned to the other side
+        # `no, right`: it has turned to the other side since.
+        is_back = is_correction(last) and (moved.yaw_rad > 0.0) != step.left
         missing = _missing(whole, angle.number, abs(moved.yaw_rad))
         if abs(missing) < NEAR_RAD:
             raise Unclear("contradiction", whole.text)

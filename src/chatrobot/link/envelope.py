@@ -55,6 +55,8 @@ STOP_COMMAND, STOP_TOPIC = "chatrobot stop", "chatrobot/stop"
 """The sources of stops that nobody says to a conversation."""
 QUEUE_LIMIT = 10
 """What may wait while the robot moves, on either side; one more is refused rather than done in an hour."""
+MOST_CHARACTERS = 65_536
+"""Of one text; a reader of lines may have cut what is longer, so nothing of it is done."""
 
 MAX_CODE_CHARS = 60_000
 """Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
