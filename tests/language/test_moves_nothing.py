@@ -55,6 +55,7 @@ from tests.language.dialogue_runner import check_nothing_done
         ("后退车道",),
         ("前进一米完了",),
         ("注意左转",),
+        ("王子涵!你再往左边挪一挪",),
         ("画圆的话",),
         ("先左后走",),
         ("回起点后走一米",),

@@ -1,7 +1,7 @@
 """Patterns of the data files, each compiled once a text comes that it may match.
 
-To compile all of them takes longer than to read a sentence. A pattern is tried only on a text that has a word which
-every match needs; which words those are is read off the pattern.
+To compile all of them takes longer than to read a sentence. A pattern is tried only on a text that has the words which
+every match needs; which words those are is read off the pattern. A Chinese character is a word.
 """
 
 from __future__ import annotations
@@ -13,23 +13,27 @@ from functools import cache, cached_property
 
 from chatrobot.language.compiled import compiled
 from chatrobot.language.data_files import LANGUAGES, in_full, load_table
+from chatrobot.language.numbers import is_chinese
 
-_SHORTEST = 2
+_LEAST_WORTH, _MOST_NEEDS = 2, 3
 _TOKEN = re.compile(
     r"\\(?P<escaped>.)|(?P<set>\[\^?\]?(?:\\.|[^\]\\])*\])|(?P<around>\(\?(?:[=!]|<[=!]|\(\w+\)))|\(\?P=\w+\)(?P<back>)"
     r"|(?P<open>\((?:\?(?::|P<\w+>))?)|(?P<close>\))|(?P<or>\|)|(?P<repeat>(?:[*+?]|\{\d*(?:,\d*)?\})[?+]?)"
     r"|(?P<any>[.^$])|(?P<char>.)",
     re.DOTALL,
 )
+_RANGE = re.compile(r"\\|.-.|^\^")
+"""What a set holds that is more than its characters."""
 Needed = frozenset[str]
+"""Words of which every match has one at least."""
 
 
 class Form:
     """A pattern, which answers what `re.Pattern` of that name would."""
 
-    def __init__(self, source: str, needed: Sequence[str] = ()) -> None:
-        self._source, self.needed = source, needed
-        self._is_tried = not needed
+    def __init__(self, source: str, needs: Sequence[Sequence[str]] = ()) -> None:
+        self._source, self.needs = source, needs
+        self._is_tried = not needs
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -53,18 +57,21 @@ class Form:
         return self.pattern.sub(put, text, count=count) if self.search(text) else text
 
     def _may_match(self, text: str) -> bool:
-        for word in self.needed:  # `any` would take three times as long, and most stop here
-            if word in text:
-                self._is_tried = True
-                return True
-        return self._is_tried
+        for needed in self.needs:
+            for word in needed:  # `any` would take three times as long, and most stop here
+                if word in text:
+                    break
+            else:
+                return False
+        self._is_tried = True
+        return True
 
 
 class Rule(Form):
     """A pattern, and what is put in place of what it matches."""
 
-    def __init__(self, source: str, said: str, needed: Sequence[str]) -> None:
-        super().__init__(source, needed)
+    def __init__(self, source: str, said: str, needs: Sequence[Sequence[str]]) -> None:
+        super().__init__(source, needs)
         self.said = said
 
     def is_in(self, text: str) -> bool:
@@ -80,17 +87,19 @@ class Rule(Form):
 
 
 class Rules:
-    """Rules in their order. Only those are tried on a text that it has two letters of, which a match of them needs."""
+    """Rules in their order. Only those are tried on a text that it has a piece of, which a match of them needs: two
+    letters, or a Chinese character."""
 
     def __init__(self, listed: Sequence[Rule]) -> None:
         self._rules = tuple(listed)
-        self._unbound, self._by_pair = 0, defaultdict[str, int](int)
-        counts = Counter(pair for rule in listed for word in rule.needed for pair in set(_pairs(word)))
-        for number, rule in enumerate(listed):
-            if not rule.needed:
+        self._unbound, self._by_piece = 0, defaultdict[str, int](int)
+        first = [rule.needs[0] if rule.needs else () for rule in listed]
+        counts = Counter(piece for needed in first for word in needed for piece in _pieces(word))
+        for number, needed in enumerate(first):
+            if not needed:
                 self._unbound |= 1 << number
-            for word in rule.needed:
-                self._by_pair[min(_pairs(word), key=counts.__getitem__)] |= 1 << number
+            for word in needed:
+                self._by_piece[min(_pieces(word), key=counts.__getitem__)] |= 1 << number
 
     def __iter__(self) -> Iterator[Rule]:
         return iter(self._rules)
@@ -120,13 +129,14 @@ class Rules:
 
     def _tried(self, text: str) -> int:
         tried = self._unbound
-        for pair in set(_pairs(text)):
-            tried |= self._by_pair.get(pair, 0)
+        for piece in _pieces(text):
+            tried |= self._by_piece.get(piece, 0)
         return tried
 
 
-def _pairs(text: str) -> list[str]:
-    return [text[at : at + 2] for at in range(len(text) - 1)]
+def _pieces(text: str) -> set[str]:
+    pairs = {text[at : at + 2] for at in range(len(text) - 1)}
+    return pairs if text.isascii() else pairs.union(filter(is_chinese, text))
 
 
 NEVER = Form("(?!)")
@@ -163,8 +173,8 @@ def forms_of(name: str, sources: Callable[[], Iterable[str]]) -> tuple[Form, ...
         name: of the file in the cache folder where they, and what each needs, are kept.
     """
 
-    def build() -> tuple[tuple[str, tuple[str, ...]], ...]:
-        return tuple((source, tuple(sorted(needed_by(source)))) for source in sources())
+    def build() -> tuple[tuple[str, _Kept], ...]:
+        return tuple((source, _kept(source)) for source in sources())
 
     return tuple(Form(*one) for one in compiled(f"forms_{name}", build))
 
@@ -176,59 +186,72 @@ def rules(name: str, listed: Iterable[Sequence[str]], parts: Mapping[str, str]) 
         name: of the file in the cache folder where the patterns in full, and what each needs, are kept.
     """
 
-    def build() -> tuple[tuple[str, str, tuple[str, ...]], ...]:
+    def build() -> tuple[tuple[str, str, _Kept], ...]:
         full = ((in_full(pattern, parts), said) for pattern, said in listed)
-        return tuple((pattern, said, tuple(sorted(needed_by(pattern)))) for pattern, said in full)
+        return tuple((pattern, said, _kept(pattern)) for pattern, said in full)
 
     return Rules([Rule(*one) for one in compiled(name, build)])
 
 
-def needed_by(pattern: str) -> Needed:
-    """Return words of which every match of a pattern has one at least; none where that cannot be told."""
+_Kept = tuple[tuple[str, ...], ...]
+
+
+def _kept(pattern: str) -> _Kept:
+    return tuple(tuple(sorted(needed)) for needed in needs_of(pattern))
+
+
+def needs_of(pattern: str) -> tuple[Needed, ...]:
+    """Return what every match of a pattern needs, the rarest first; nothing where that cannot be told."""
     found, _ = _alternatives(list(_TOKEN.finditer(pattern)), 0)
-    return found
+    return found[:_MOST_NEEDS]
 
 
-def _alternatives(tokens: list[re.Match[str]], at: int) -> tuple[Needed, int]:
-    """What a group needs, from its first token on, and where it ends: all of what each alternative needs."""
-    needed: set[str] = set()
-    is_known = True
+def _alternatives(tokens: list[re.Match[str]], at: int) -> tuple[tuple[Needed, ...], int]:
+    """What a group needs, from its first token on, and where it ends: the rarest of each alternative."""
+    found: list[tuple[Needed, ...]] = []
     while True:
         one, at = _sequence(tokens, at)
-        needed |= one
-        is_known = is_known and bool(one)
+        found.append(one)
         if at >= len(tokens) or tokens[at]["or"] is None:
-            return frozenset(needed if is_known else ()), at
+            break
         at += 1
+    if len(found) == 1:
+        return found[0], at
+    return ((frozenset().union(*(one[0] for one in found)),) if all(found) else ()), at
 
 
-def _sequence(tokens: list[re.Match[str]], at: int) -> tuple[Needed, int]:
-    """The best of what one alternative needs, and where it ends."""
-    best: Needed = frozenset()
+def _sequence(tokens: list[re.Match[str]], at: int) -> tuple[tuple[Needed, ...], int]:
+    """What one alternative needs, the rarest first, and where it ends."""
+    found: list[Needed] = []
     run = ""
     while at < len(tokens) and tokens[at]["or"] is None and tokens[at]["close"] is None:
         token, last = tokens[at], at + 1
-        char, group = "", frozenset[str]()
+        char, group = "", tuple[Needed, ...]()
         if token["char"] is not None:
             char = token["char"]
         elif token["escaped"] is not None and not token["escaped"].isalnum():
             char = token["escaped"]
+        elif token["set"] is not None and not _RANGE.search(token["set"][1:-1]):
+            group = (frozenset(token["set"][1:-1]),)
         elif token["open"] or token["around"]:
             group, last = _alternatives(tokens, at + 1)
             last += 1
-            group = group if token["open"] else frozenset()
+            group = group if token["open"] or token["around"] in _FOLLOWED else ()
         repeat = tokens[last]["repeat"] if last < len(tokens) else None
         at = last + (repeat is not None)
         if repeat is not None and (repeat[0] in "*?" or repeat.startswith(("{0", "{,"))):
-            char, group = "", frozenset()
+            char, group = "", ()
         run += char
         if not char or repeat is not None:
-            best, run = max(best, frozenset({run}), key=_worth), ""
-        best = max(best, group, key=_worth)
-    return max(best, frozenset({run}), key=_worth), at
+            found, run = [*found, frozenset({run})], ""
+        found += group
+    rare = {needed for needed in (*found, frozenset({run})) if _worth(needed) >= _LEAST_WORTH}
+    return tuple(sorted(rare, key=lambda needed: (-_worth(needed), len(needed), sorted(needed)))), at
+
+
+_FOLLOWED = ("(?=", "(?<=")
 
 
 def _worth(needed: Needed) -> int:
-    """How rare a text is that has one of them: as the shortest of them is long; 0 where none tells anything."""
-    shortest = min(map(len, needed), default=0)
-    return shortest if shortest >= _SHORTEST else 0
+    """How rare a text is that has one of them: as the shortest of them is long, and a Chinese character as two."""
+    return min(sum(1 + is_chinese(character) for character in word) for word in needed)

@@ -202,25 +202,22 @@ def _tells_somebody(clause: Clause, pronouns: Sequence[str]) -> bool:
 
 
 def _calls_a_name(reads: Sequence[Read], text: str, context: Context) -> bool:
-    """`Rex, go back`: whether it begins with a name that nobody gave the robot, and tells no amount.
+    """`Rex, go back`, 王子涵！后退: whether it begins with a name that nobody gave the robot, and tells no amount.
 
     The robot has that name once it moved for it: `Rex, go back 1 m`, or a yes to what was proposed.
     """
     clause = reads[0].clause
-    name = text[clause.start : clause.stop].strip(" ,")
-    if clause.end != "," or not _is_name(clause, name) or any(read.clause.measures for read in reads):
+    name = text[clause.start : clause.stop].strip(" ,!")
+    looks_like_one = any(form(code, "talk", "name").fullmatch(name) for code in LANGUAGES)
+    is_strange = clause.end == "," and len(clause.signs) == 1 and (name,) not in lexicon().words
+    is_name = is_strange or (clause.end in (",", "!") and looks_like_one)
+    if not is_name or any(sign.label != sign.text for sign in clause.signs):
+        return False
+    if any(read.clause.measures for read in reads):
         return False
     turns = [*context.dialogue.turns, *context.dialogue.turns[-1:]]
     said = (turn for turn, after in itertools.pairwise(turns) if turn.moved or after.moved)
     return not any(normalise(turn.text).startswith(name) for turn in said)
-
-
-def _is_name(clause: Clause, said: str) -> bool:
-    """Whether it is one word that nobody knows, or looks like a name."""
-    if any(sign.label != sign.text for sign in clause.signs):
-        return False
-    strange = len(clause.signs) == 1 and (said,) not in lexicon().words
-    return strange or any(form(code, "talk", "name").fullmatch(said) for code in LANGUAGES)
 
 
 def _labels(clause: Clause) -> set[str]:
