@@ -128,7 +128,7 @@ def test_a_side_and_a_size_change_the_motion_before_together(said: str, plan: st
         ("前进一米左转九十度前进两米 / 再来一遍第三步慢一点", 0),
         ("画个正方形边长一米 / 把最后一条边撤销", 0),
         ("前进一米左转九十度 / 倒着做一遍", 0),
-        ("前进两米 / 右转 / 前进一米 / 回到上一个位置", 0),
+        ("前进两米 / 右转 / 前进一米 / 回到上一个位置", 1),
         (
             "this is the shop / forward 2 m / this is the garage / go from the shop to the garage and back twice",
             0,

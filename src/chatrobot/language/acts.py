@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import LANGUAGES, load_table, relation_words
 from chatrobot.language.fitted import SCALE, slot_of, weights
 from chatrobot.language.signs import Clause, Names, Sign, clauses_of, is_strong
 
@@ -86,6 +86,7 @@ def talk_in(reads: Sequence[Read], *, doubtful: bool = False) -> list[Read]:
         map(_does, (read for read in reads if read not in talk))
     ):  # `once more, only to the right this time`
         talk = [read for read in talk if not _does(read)]
+    talk = [read for read in talk if not may_be_goal(read, reads)]
     return talk if len(talk) < len(reads) and order_log_odds(reads) >= ORDER else []
 
 
@@ -210,3 +211,19 @@ def _around(clauses: Sequence[Clause], i: int) -> Iterator[str]:
                 yield f"{side}m{_mark(clauses[k])}{label}"
     for label in {sign.label for clause in clauses[max(i - _LOOKS_BACK, 0) : i] for sign in clause.signs}:
         yield f"a{label}"
+
+
+_NAMING = frozenset({"other", "thing", "person", "opening", "request"})
+"""Labels of words that may stand beside a noun which says where to."""
+
+
+def may_be_goal(read: Read, reads: Sequence[Read]) -> bool:
+    """`Go to the dock, then to the shelf`, where nobody knows a shelf: a place to go to, however it sounds."""
+    signs = [sign for sign in read.clause.signs if sign.label not in ("opening", "request")]
+    if not signs or not all(sign.label in {*_NAMING, sign.text} for sign in signs):
+        return False
+    before = reads[: reads.index(read)]
+    leads = signs[0].text in relation_words("leading")
+    return len(signs) > leads and any(
+        leads or sign.is_name or sign.label == "PLACE" for other in before for sign in other.clause.signs
+    )

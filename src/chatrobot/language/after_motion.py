@@ -198,6 +198,12 @@ def _has_moved(dialogue: Dialogue) -> bool:
     return dialogue.last_motion is not None
 
 
+def _was_stopped(dialogue: Dialogue) -> bool:
+    """Whether the last motion came to no end: its parts may be those that were told, or those that were driven."""
+    last = dialogue.last_motion
+    return last is not None and last.outcome == "stopped"
+
+
 def _was_ordered(dialogue: Dialogue) -> bool:
     """Whether the last motion was an order of its own, and no undo of another."""
     last = dialogue.last_motion
@@ -249,6 +255,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "turns": lambda dialogue: len(dialogue.ledger.done) > 1,
     "own": _was_ordered,
     "moved": _has_moved,
+    "stopped": _was_stopped,
 }
 
 

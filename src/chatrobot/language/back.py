@@ -12,7 +12,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.frames import DIRECTIONS, GO, SIDES, Frame
 from chatrobot.language.inverse import inverse, is_sideways
-from chatrobot.language.last_motion import steps_of
+from chatrobot.language.last_motion import driven_steps
 from chatrobot.language.leading import pose_after
 from chatrobot.language.manner import Pace
 from chatrobot.language.unclear import Unclear
@@ -36,11 +36,11 @@ def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
         or (isinstance(step, Drive) and not is_sideways(step) and _says_again_to_a_side(whole))
     ):
         raise Unclear("which_way", whole.text)
-    slid = last is not None and last.plan is not None and [*map(is_sideways, last.plan.steps)] == [True]
+    slid = [*map(is_sideways, driven_steps(last))] == [True]
     if not slid or whole.q:
         return None
     if (whole.verb, whole.direction) == ("slide", "back") and not whole.flags:
-        return inverse(list(steps_of(last)), pace.speed(whole))
+        return inverse(list(driven_steps(last)), pace.speed(whole))
     a_bit = whole.flags in ({"bit"}, {"bit", "more"}) and whole.verb in ("", "go", "shift") and not whole.rot
     if not a_bit or whole.direction not in SIDES:
         return None
@@ -57,17 +57,19 @@ def _says_again_to_a_side(whole: Frame) -> bool:
 def driven_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     """`And back`, after one drive straight ahead, or to a place: as far as that, or where it came from."""
     last = context.dialogue.last_motion
-    [step] = (
-        last.plan.steps
-        if last is not None and last.plan is not None and len(last.plan.steps) == 1
-        else [None]
-    )
-    bare = whole.direction == "back" and not (set(whole.q) - PACES or whole.flags or whole.rot or whole.shape)
+    steps = driven_steps(last)
+    step = steps[0] if len(steps) == 1 else None
+    more = set(whole.q) - PACES or whole.flags or whole.rot or whole.shape
+    bare = whole.direction == "back" and not more
     if context.dialogue.usual.distance_m is not None:
         return None  # a person set how far that is
-    if not bare or whole.verb not in ("", *GO):
+    if not bare or whole.verb not in ("", *GO) or last is None:
         return None
-    if isinstance(step, Go) and last is not None:
+    if whole.place:  # `back to the mesa, just reverse`, where it came from there
+        place = context.dialogue.places.get(whole.place)
+        if place is None or isinstance(step, Go) or place.pose.distance_to(last.start_pose) > NEAR_M:
+            return None
+    if isinstance(step, Go):
         return [replace(Go.to_pose(last.start_pose), yaw_rad=None, speed_mps=pace.speed(whole))]
     ahead = isinstance(step, Drive) and step.direction_rad == 0.0 and step.until is None and step.distance_m
     is_way = ahead or (isinstance(step, Arc) and not step.backward)
@@ -76,17 +78,15 @@ def driven_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None
 
 def only_turned(context: Context) -> bool:
     """Whether the last motion turned on the spot where it all began: there `and back` is a turn."""
-    last = context.dialogue.last_motion
-    turned = (
-        last is not None and last.plan and all(isinstance(step, (Turn, Wait)) for step in last.plan.steps)
-    )
-    return bool(turned) and context.state.pose.distance_to(context.dialogue.start_pose) <= NEAR_M
+    steps = driven_steps(context.dialogue.last_motion)
+    turned = all(isinstance(step, (Turn, Wait)) for step in steps)
+    return bool(steps) and turned and context.state.pose.distance_to(context.dialogue.start_pose) <= NEAR_M
 
 
 def only_slid(context: Context) -> bool:
     """Whether the last motion slid sideways from where it all began: the way back is a slide as well, and no turn."""
     last, start = context.dialogue.last_motion, context.dialogue.start_pose
-    steps = last.plan.steps if last is not None and last.plan is not None else ()
+    steps = driven_steps(last)
     if last is None or len(steps) != 1 or not is_sideways(steps[0]):
         return False
     off_rad = wrap_angle(last.start_pose.yaw_rad - start.yaw_rad)

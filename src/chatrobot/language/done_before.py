@@ -50,7 +50,9 @@ def ordered_by(said: Said, context: Context) -> list[Step] | None:
         Unclear: nothing was done that the words fit.
     """
     done, last = _done(context.dialogue), context.dialogue.last_motion
-    if not done or last is None or last.walk is not None or any(turn.lost for turn in context.dialogue.turns):
+    if not done or last is None or last.walk is not None or last.outcome == "stopped":
+        return None
+    if any(turn.lost for turn in context.dialogue.turns):
         return None
     before = _Before(
         done, context.dialogue.ledger.done[-1].way or (), unit_driven_m(last) or 0.0, is_correction(last)

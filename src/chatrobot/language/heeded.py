@@ -17,7 +17,7 @@ from chatrobot.language.inverse import is_sideways
 from chatrobot.language.numbers import is_chinese, is_kind
 from chatrobot.language.tokens import SILENT, Atom, quantity
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Go, Step, Turn
 
 _CHANGE = 1.07
 """Small enough that no limit or sign turns over, and nothing that is rounded hides it."""
@@ -83,6 +83,10 @@ def check_heeded(
     """
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
+    if any(isinstance(a, Go) and a.place and a == b for a, b in itertools.pairwise(steps)):
+        raise Unclear(
+            "unclear_motion", " ".join(atom.text for atom in atoms)
+        )  # `to the dock and the desk twice`
     _check_clauses(atoms, steps, read)
     _check_each(atoms, steps)
     _check_no_turn(atoms, steps)

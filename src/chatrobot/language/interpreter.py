@@ -54,6 +54,7 @@ from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
 from chatrobot.language.rephrase import in_full, in_full_after, rephrased, with_breaks
+from chatrobot.language.resuming import asked_for_rest, with_rest
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
@@ -92,8 +93,14 @@ class OfflineInterpreter:
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
-        said, context = with_points(text, context)
+        try:
+            rest, context = with_rest(text, language, context)
+        except Unclear as problem:
+            return asked_back(problem, language)
+        said, context = with_points(rest, context)
         meant = read_glossed(said, language, context, self._read)
+        if rest != text:
+            return asked_for_rest(meant, text, language)
         return replace(meant, reply=naming_points(meant.reply, context)) if said != text else meant
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:

@@ -41,6 +41,13 @@ def steps_of(record: TurnRecord | None) -> tuple[Step, ...]:
     return record.plan.steps
 
 
+def driven_steps(record: TurnRecord | None) -> tuple[Step, ...]:
+    """What an earlier turn drove: its steps, and of those that were stopped as much as was measured; else nothing."""
+    if record is None or record.plan is None:
+        return ()
+    return record.way or () if record.outcome == "stopped" else record.plan.steps
+
+
 @lru_cache(maxsize=128)
 def said_unit_m(text: str) -> float | None:
     """The last unit of length in what was said: `another 30` after `50 cm` are centimetres."""

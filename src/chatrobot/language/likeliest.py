@@ -10,7 +10,7 @@ import contextlib
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from chatrobot.language.acts import ORDER, Read, read_acts, talk_in
+from chatrobot.language.acts import ORDER, Read, may_be_goal, read_acts, talk_in
 from chatrobot.language.bare_orders import is_bare_order
 from chatrobot.language.beside import (
     SURELY_NOT_MEANT,
@@ -128,7 +128,12 @@ def _talk(
         if is_sure_aside(read.clause, odds) and not may_order(read) and _is_no_part(read, reads, odds)
     ]
     talk = [*apart, *told, *([] if asks else talk_in(reads))]
-    gone = [clause for clause in reads if clause in talk or _is_sure_talk(clause, best)]
+    gone = [
+        clause
+        for clause in reads
+        if clause in apart
+        or ((clause in talk or _is_sure_talk(clause, best)) and not may_be_goal(clause, reads))
+    ]
     doubtful = [read for read in gone if read not in apart]
     is_sure = bool(apart) or not problem.refused or _is_clearly_told(plain, problem, told, odds)
     points = any(refers(read.clause) for read in reads)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from chatrobot.language.acts import ORDER, Read, order_log_odds, without
+from chatrobot.language.acts import ORDER, Read, may_be_goal, order_log_odds, without
 from chatrobot.language.beside import MAYBE_ASIDE, SURE_ASIDE, Aside, asides, is_reported, refers
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.quoting import names_measure
@@ -34,7 +34,9 @@ def beside_reference(
     `read_anew` reads as if nothing had been said before.
     """
     found = asides(reads)
-    talk = [one for one in reads if _is_talk(one, found.get(one.clause.start))]
+    talk = [
+        one for one in reads if _is_talk(one, found.get(one.clause.start)) and not may_be_goal(one, reads)
+    ]
     kept = [one for one in reads if one not in talk]
     if not talk or not kept or is_reported(reads, kept):
         return None

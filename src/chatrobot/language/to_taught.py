@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from functools import cache
 
-from chatrobot.language.acts import read_acts, without
+from chatrobot.language.acts import may_be_goal, read_acts, without
 from chatrobot.language.beside import MAYBE_ASIDE, Aside, asides, is_sure_aside
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import LANGUAGES, load_table
@@ -118,6 +118,8 @@ def _without_reasons(plain: str, text: str, ordered: int, context: Context) -> s
     beside = [read for read in reads if read not in kept]
     named = sum(sign.is_name for read in kept for sign in read.clause.signs)
     if named != ordered or holds_back([read.clause for read in reads]):
+        return plain
+    if any(may_be_goal(read, reads) for read in beside):
         return plain
     odds = asides(reads)
     rest = [read.clause for read in beside if not _tells_why(read.clause, odds)]
