@@ -41,6 +41,14 @@ def test_of_a_line_that_is_too_long_nothing_is_done(chatrobot: Command, line: st
         assert len(done.named("notice")) == 1 - told
 
 
+@pytest.mark.parametrize("text", ["forward 1\ufffd m", "turn left \udcbd turn", "vorwärts 1\ufffd m"])
+def test_of_a_text_with_bytes_that_are_no_text_nothing_is_done(chatrobot: Command, text: str) -> None:
+    (result,) = chatrobot("do", text, *FAST).named("result")
+    assert result["outcome"] == "unclear"
+    assert result["path_m"] == result["turned_rad"] == 0.0
+    assert "UTF-8" in result["reply"]
+
+
 def test_a_line_that_is_too_long_is_one_turn_that_says_so(chatrobot: Command) -> None:
     (result,) = chatrobot(*FAST, stdin=f"{ORDERED_AT_ITS_END}\n").named("result")
     assert (result["turn"], result["outcome"]) == (1, "unclear")

@@ -31,11 +31,22 @@ from chatrobot.reflex import is_release
 _COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
 
 
+def _not_readable(text: str) -> str:
+    """The code of why nobody can tell what was said: it is cut, or holds what stands for bytes that are no text."""
+    if len(text) > MOST_CHARACTERS:
+        return "text_too_long"
+    return "text_undecoded" if _UNDECODED.search(text) else ""
+
+
 def _of_the_console(text: str) -> str:
     """Return the phrase that answers what is typed at the terminal console, "" for anything else."""
     if is_release(text):
         return "release_by_command"
     return "command_of_console" if _COMMAND.match(text) else ""
+
+
+_UNDECODED = re.compile("[\ufffd\udc80-\udcff]")
+"""What stands for a byte that is no UTF-8: on a line of the terminal, and in an argument of a command."""
 
 
 @dataclass(eq=False)
@@ -69,8 +80,9 @@ class Dispatch:
         if self._utterances.is_void(utterance):
             self._drop(utterance)
             return
-        if utterance.kind == "text" and len(utterance.text) > MOST_CHARACTERS:
-            reply = self._understanding.say("text_too_long", utterance.text, limit=MOST_CHARACTERS)
+        unread = _not_readable(utterance.text) if utterance.kind == "text" else ""
+        if unread:
+            reply = self._understanding.say(unread, utterance.text, limit=MOST_CHARACTERS)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
         answer = self._proposals.answered(utterance, in_turn=self._goals.options.answers_in_turn)

@@ -249,6 +249,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "not_straight": _not_straight,
     "off_line": lambda dialogue: _not_straight(dialogue) or _is_slide(dialogue),
     "turned": _has_turned,
+    "eight": lambda dialogue: len(_steps(dialogue.last_motion)) > 1 and _only(Arc)(dialogue),
     "sequence": lambda dialogue: len(_steps(dialogue.last_motion)) > 1,
     "aside": _looks_aside,
     "just": lambda dialogue: dialogue.turns[-1].plan is not None,

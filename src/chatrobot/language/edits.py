@@ -154,7 +154,7 @@ def _applied(edit: Edit, steps: list[Step]) -> list[Step] | None:
             raise Unclear("nothing_before")  # nothing of it was so much
         return replaced
     if scale is not None and "amounts" in flags:
-        return [_scaled(step, scale.number) for step in steps]
+        return [scaled(step, scale.number) for step in steps]
     if flags == {"again", "more"} and len(edit.amounts) == 1 and not edit.way and scale is None:
         return _lengthened(steps, edit)
     measured = edit.roles and ("instead" in flags or edit.is_named)  # `make the radius 1 m`
@@ -193,7 +193,7 @@ def _one_way(edit: Edit, steps: list[Step], scale: Atom | None) -> list[Step] | 
         return [with_value(step, size.number)] if _takes(step, size) else None
     if "overshot" in edit.flags or (edit.slides and edit.way != "back"):
         return None
-    return [_scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
+    return [scaled(step, scale.number if scale is not None else 1.0)] if size is None else None
 
 
 def _reordered(steps: list[Step], edit: Edit) -> list[Step]:
@@ -214,7 +214,8 @@ def _reordered(steps: list[Step], edit: Edit) -> list[Step]:
     return [steps[kinds.index(kind)] for kind in named]
 
 
-def _scaled(step: Step, factor: float) -> Step:
+def scaled(step: Step, factor: float) -> Step:
+    """A drive or a turn of so many times the size; an arc of so many times the radius; any other step as it is."""
     if isinstance(step, Drive):
         seconds = step.duration_s * factor if step.duration_s else None
         length = step.distance_m * factor if step.distance_m else None

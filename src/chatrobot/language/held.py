@@ -15,10 +15,11 @@ from chatrobot.language.data_files import load_table
 from chatrobot.language.dialogue import refer
 from chatrobot.language.earlier_turns import answer_to_question
 from chatrobot.language.edit_words import Edit
+from chatrobot.language.edits import scaled
 from chatrobot.language.frames import DIRECTIONS, SIDES
 from chatrobot.language.interpretation import Interpretation, asked_back
 from chatrobot.language.inverse import is_sideways
-from chatrobot.language.last_motion import in_unit_before, said_unit_m
+from chatrobot.language.last_motion import in_unit_before, laps, said_unit_m
 from chatrobot.language.normalise import normalise
 from chatrobot.language.part_changed import as_if_done
 from chatrobot.language.phrases import describe_steps, say
@@ -276,7 +277,12 @@ def _affirmed(atoms: list[Atom]) -> list[Atom]:
 
 def _with_amount(steps: list[Step], size: Atom, reading: Reading) -> list[Step]:
     if size.value == "times" and size.number in range(1, 21):
-        return steps[: once_of(steps)] * int(size.number)  # `no, three times`, of what was to be done twice
+        is_closed = len(steps) > 1 and laps(steps, 1) is not None  # a square: its sides are not counted
+        return (steps if is_closed else steps[: once_of(steps)]) * int(size.number)  # `no, three times`
+    if size.value == "number" and size.number < 1.0 and not any(map(str.isdigit, size.text)):
+        if len(steps) != 1 or not isinstance(steps[0], (Drive, Turn)):
+            raise Unclear("unclear_motion", size.text)  # half of which of them, or of its radius?
+        return [scaled(steps[0], size.number)]  # `yes, but only half`
     turns = reversed(reading.context.dialogue.turns)
     unit_m = next((unit for unit in (said_unit_m(turn.text) for turn in turns) if unit), 0.0)
     if len(steps) == 1:

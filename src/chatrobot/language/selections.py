@@ -272,7 +272,8 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     once = once_of(steps)
     count = number_said(said, "count", load_table(language, "selections")) or 1
     if said.get("lap"):
-        more = laps(steps, count)
+        is_eight = len(steps) > 1 and all(isinstance(step, Arc) for step in steps)
+        more = steps * count if is_eight else laps(steps, count)
         if more is None:
             raise Unclear("which_size", plain[:60])
         return more

@@ -47,8 +47,7 @@ def check_start(frames: Sequence[Frame], dialogue: Dialogue) -> None:
 def without_hold(plain: str, language: str) -> str:
     """A normalised text without what holds it back; an empty string where nothing does."""
     rest = form(language, "starting", "held").sub("", plain)
-    if rest == plain:
-        rest = form(language, "starting", "held_opening").sub("", plain)
+    rest = form(language, "starting", "held_opening").sub("", rest)
     return form(language, "starting", "held_heading").sub("", rest).strip(" ,.;:!") if rest != plain else ""
 
 

@@ -77,6 +77,10 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
     offered, agreed = context.dialogue.offered, after_consent(text)
     if offered is None:
         return None
+    told = answered(rephrased(normalise(text), language), offered.steps, reading)
+    if told is not None:
+        asked = proposed(planned([*offered.steps], language), language)
+        return replace(told, proposal=asked.proposal if asked is not None else None)
     try:
         found = amended(agreed or text, offered, reading, meant, is_agreed=agreed is not None)
     except Unclear as problem:
