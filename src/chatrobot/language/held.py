@@ -277,7 +277,8 @@ def _affirmed(atoms: list[Atom]) -> list[Atom]:
 
 def _with_amount(steps: list[Step], size: Atom, reading: Reading) -> list[Step]:
     if size.value == "times" and size.number in range(1, 21):
-        is_closed = len(steps) > 1 and laps(steps, 1) is not None  # a square: its sides are not counted
+        drives = any(isinstance(step, (Drive, Arc)) for step in steps)
+        is_closed = drives and len(steps) > 1 and laps(steps, 1) is not None  # a square, not its sides
         return (steps if is_closed else steps[: once_of(steps)]) * int(size.number)  # `no, three times`
     if size.value == "number" and size.number < 1.0 and not any(map(str.isdigit, size.text)):
         if len(steps) != 1 or not isinstance(steps[0], (Drive, Turn)):
