@@ -74,7 +74,9 @@ events out. At the [nodes](nodes.md) the same objects are on `chatrobot/events`,
 * A turn: `interpreted`, `rehearsed`, `started`, `progress` …, `result`. `result` is its last event. A turn that moves
   nothing has no `started`; a plan that a model streams has `streamed` before `interpreted`.
 * **Lines in** are texts, `{{"text": …}}` for a text with line breaks, or `{{"approve": true}}` (or false) for the plan
-  that waits for a yes. A line of more than 65,536 bytes is answered as too long, and nothing of it is done.
+  that waits for a yes. A line that is JSON is never read as a text: `5`, `null`, `[]` and `"forward"` are of no known
+  form, and `{{"text": "5"}}` says the first of them; `"stop"` stops all the same. A line of more than 65,536 bytes is
+  answered as too long, and nothing of it is done.
 * **Which line a result belongs to: `turn`.** It counts the lines with a text, from 1. These have no number: blank
   lines; `approve`; what is JSON of no known form (a `notice` of turn 0 tells); `quit` and `exit`, where they
   end the input. A list that comes with its heading (`Do as follows:`, `1. forward 1 m`) is one text with it.

@@ -214,12 +214,18 @@ def test_json_in_json_out(chatrobot: Command) -> None:
     assert done.code == 0
 
 
-@pytest.mark.parametrize("line", ["{", '{"text": 3}', '{"approve": "x"}', "{}", '{"text": ""}', "{" * 5000])
+OBJECTS_OF_NO_KNOWN_FORM = ["{", '{"text": 3}', '{"approve": "x"}', "{}", '{"text": ""}', "{" * 5000]
+OTHER_JSON = ["5", "-0.5", "null", "true", "[]", '["forward 1 m"]', '"forward 1 m"', '""']
+
+
+@pytest.mark.parametrize("line", [*OBJECTS_OF_NO_KNOWN_FORM, *OTHER_JSON])
 def test_a_line_that_is_no_instruction_is_told_and_ends_nothing(chatrobot: Command, line: str) -> None:
     done = chatrobot("--json", *FAST, stdin=f"{line}\nforward 1 m\n")
     assert done.code == 0
-    assert len(done.named("notice")) == 1
-    assert done.named("result")[-1]["outcome"] == "completed"
+    (notice,) = done.named("notice")
+    assert (notice["turn"], notice["reason"]["code"]) == (0, "bad_input_line")
+    (result,) = done.named("result")
+    assert (result["turn"], result["outcome"]) == (1, "completed")
 
 
 def test_bytes_that_are_no_text_end_nothing(chatrobot: Command) -> None:

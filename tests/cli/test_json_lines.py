@@ -75,6 +75,28 @@ def test_the_longest_line_is_whole() -> None:
     assert len(longest) <= MOST_CHARACTERS
 
 
+# --- lines that are JSON ---
+
+
+@pytest.mark.parametrize("line", ["[" * 5000, "5 m vor", "true north", '"forward" 1 m'])
+def test_a_line_that_is_no_json_is_a_text(chatrobot: Command, line: str) -> None:
+    done = chatrobot(*FAST, stdin=f"{line}\n")
+    assert [event["turn"] for event in done.named("result")] == [1]
+    assert not done.named("notice")
+
+
+def test_what_is_json_by_itself_is_said_as_the_text_of_an_object(chatrobot: Command) -> None:
+    (result,) = chatrobot(*FAST, stdin='{"text": "5"}\n').named("result")
+    assert (result["turn"], result["outcome"]) == (1, "unclear")
+
+
+@pytest.mark.parametrize("line", ['"stop"', '["stop"]', '"emergency stop"', '"停"'])
+def test_a_stop_stops_though_it_is_json_of_no_known_form(chatrobot: Command, line: str) -> None:
+    done = chatrobot(*FAST, stdin=f"forward 1 m\n{line}\n")
+    assert {event["outcome"] for event in done.named("result")} == {"stopped"}
+    assert not done.named("notice")
+
+
 # --- a yes in a pipe ---
 
 

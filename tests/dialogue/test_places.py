@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,56 @@ def test_a_place_comes_back_and_knows_whether_its_coordinates_still_mean_anythin
     same = Places(tmp_path, "robot", "monday").all()["dock"]
     later = Places(tmp_path, "robot", "tuesday").all()["dock"]
     assert (same.pose, same.usable, later.usable) == (Pose(1.0, 2.0, 0.5), True, False)
+
+
+EARLIER = {
+    "go to depot": "“depot” was remembered in an earlier session, and I cannot know whether odometry has started anew",
+    "where is depot?": "“depot” was remembered in an earlier session",
+    "fahr zum depot": "„depot“ wurde in einer früheren Sitzung gemerkt",
+    "wo ist depot?": "„depot“ wurde in einer früheren Sitzung gemerkt",
+    "去depot": "“depot”是在以前的会话里记住的",
+    "depot在哪里？": "“depot”是在以前的会话里记住的",
+}
+
+
+@pytest.fixture
+def later(tmp_path: Path) -> Talk:
+    """A session after the one that remembered a place."""
+    earlier = Talk(folder=tmp_path)
+    assert earlier.do("remember this place as depot").outcome == "answered"
+    assert earlier.do("forward 50 cm, then go to depot").outcome == "completed"
+    return Talk(folder=tmp_path)
+
+
+@pytest.mark.parametrize("said", EARLIER)
+def test_a_place_of_an_earlier_session_is_told_as_such_and_not_driven_to(later: Talk, said: str) -> None:
+    told = later.do(said)
+    assert EARLIER[said] in told.reply
+    assert told.path_m == 0.0
+    way_out = re.search(
+        "[“„](remember this place as depot|merk dir .* depot|记住这里叫depot)[”“]", told.reply
+    )
+    assert way_out is not None
+    assert later.do(way_out[1]).outcome == "answered"
+    assert later.do("forward 50 cm, then go to depot").outcome == "completed"
+
+
+@pytest.mark.parametrize(
+    ("said", "known", "earlier"),
+    [
+        ("which places do you know?", "Places I know: none yet.", "in an earlier session"),
+        ("where is the shed?", "I know no place called “shed”. Places I know: none yet.", "in an earlier session"),
+        ("welche Orte kennst du?", "Orte, die ich kenne: noch keinen.", "In einer früheren Sitzung gemerkt"),
+        ("你知道哪些地方？", "我知道的地方：还没有。", "以前的会话里记住的"),
+    ],
+)  # fmt: skip
+def test_places_of_an_earlier_session_are_told_apart(
+    later: Talk, said: str, known: str, earlier: str
+) -> None:
+    reply = later.do(said).reply
+    assert reply.startswith(known)
+    assert earlier in reply.removeprefix(known)
+    assert "depot" in reply.removeprefix(known)
 
 
 def test_robots_do_not_share_places(tmp_path: Path) -> None:

@@ -59,6 +59,19 @@ def test_no_meaning_is_of_a_key_that_is_gone() -> None:
     assert not [f"{name}.{key}" for name in known for key in MEANINGS.get(name, {}) if key not in known[name]]
 
 
+def test_neither_page_says_that_the_time_driven_contains_the_time_stood() -> None:
+    """As `tests/motion/test_pause.py` measures them."""
+    for name in ("finished", "result"):
+        said = {**MEANINGS["every"], **MEANINGS[name]}
+        assert "without the time in which it stood" in said["duration_s"]
+        assert "no part of `duration_s`" in said["paused_s"]
+    page = (reference.ROOT / "docs" / "python-api.md").read_text(encoding="utf-8")
+    assert (
+        "| `duration_s`, `paused_s` | how long the robot was driven; and, no part of it, how long it stood"
+        in page
+    )
+
+
 def test_every_variable_of_ours_that_a_person_sets_is_told() -> None:
     ours = {
         name

@@ -68,6 +68,24 @@ def test_a_pause_word_keeps_the_plan_and_continue_drives_the_rest(word: str) -> 
     assert "1.00 m of 1.00 m" in whole.reply or "1.00 米" in whole.reply
 
 
+def test_the_time_that_it_stood_is_told_beside_the_time_that_it_was_driven() -> None:
+    talk = Talk()
+    alone = talk.do("forward 50 cm")
+    assert alone.paused_s == 0.0
+    waited = talk.do("forward 25 cm, wait 2 s, forward 25 cm")
+    assert waited.paused_s == pytest.approx(2.0, abs=0.3)
+    other = Talk()
+    other.session.say("forward 50 cm")
+    pause(other)
+    run_s(other, 3.0)
+    other.session.say("continue")
+    other.pump_until(lambda: 1 in other.results())
+    resumed = other.results()[1]
+    assert resumed.paused_s >= 3.0
+    for stood in (waited, resumed):  # two ramps more, and nothing of the time that it stood
+        assert alone.duration_s < stood.duration_s < alone.duration_s + 1.5
+
+
 @pytest.mark.parametrize("word", RESUMES)
 def test_every_word_for_going_on_goes_on(word: str) -> None:
     talk = Talk()

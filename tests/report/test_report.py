@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import errno
+import os
 import re
 import shutil
 import xml.dom.minidom
@@ -12,6 +14,7 @@ import pytest
 from PIL import Image
 
 from chatrobot.cli.entry import main
+from chatrobot.cli.recorder import read_recording
 from chatrobot.cli.report.drive import Drive
 from chatrobot.cli.report.page import make_page
 from chatrobot.cli.report.summary import sentences, words_in
@@ -119,16 +122,44 @@ def test_each_kind_of_file_is_written_beside_the_recording_or_where_it_is_wanted
     assert {oct(file.stat().st_mode & 0o777) for file in tmp_path.glob("*.[sg]*")} == {"0o600"}
 
 
-def test_a_recording_that_was_cut_off_is_mended_and_the_page_says_so(tmp_path: Path) -> None:
+def cut_off(folder: Path) -> tuple[Path, Path]:
+    """Write a recording, and the first third of it."""
     poses = [(0.02 * i, topics.ODOM, Odometry(0.0, 0.01 * i, 0.0, 0.0, 0.5, 0.0, 0.0)) for i in range(2000)]
-    whole = write(tmp_path / "whole.mcap", poses)
-    path = tmp_path / "cut.mcap"
+    whole = write(folder / "whole.mcap", poses)
+    path = folder / "cut.mcap"
     path.write_bytes(whole.read_bytes()[: whole.stat().st_size // 3])
+    return whole, path
+
+
+def test_a_recording_that_was_cut_off_is_mended_and_the_page_says_so(tmp_path: Path) -> None:
+    whole, path = cut_off(tmp_path)
     assert report(path) == 0
     assert "was repaired" in (tmp_path / "cut.html").read_text(encoding="utf-8")
     assert 0.0 < read(path).duration_s < read(whole).duration_s
     assert report(path) == 0
     assert "was repaired" not in (tmp_path / "cut.html").read_text(encoding="utf-8")
+
+
+def test_a_recording_that_was_cut_off_is_read_from_a_copy_where_its_folder_cannot_be_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole, path = cut_off(tmp_path)
+    before, opened = path.read_bytes(), os.open
+
+    def open_elsewhere(at: str | Path, flags: int, mode: int = 0o777, dir_fd: int | None = None) -> int:
+        if flags & os.O_CREAT and Path(at).parent == tmp_path:  # root may write what its owner may not
+            raise PermissionError(errno.EACCES, "Permission denied")
+        return opened(at, flags, mode, dir_fd=dir_fd)
+
+    made = tmp_path / "elsewhere" / "cut.html"
+    made.parent.mkdir()
+    monkeypatch.setattr(os, "open", open_elsewhere)
+    assert report(path, "--html", str(made)) == 0
+    assert "is not at its end" in made.read_text(encoding="utf-8")
+    recording, amiss = read_recording(str(path))
+    assert (recording.path, amiss) == (path, "unfinished")
+    assert 0.0 < recording.duration_s < read(whole).duration_s
+    assert path.read_bytes() == before
 
 
 @pytest.mark.parametrize("content", [b"", b"PNG", b"\x89MCAP0\r\n" + bytes(400)])

@@ -67,7 +67,7 @@ def read_recording(name: str) -> tuple[Recording, str]:
     """
     require_extra()
     from chatrobot.recording.reader import read
-    from chatrobot.recording.repair import copy_whole, is_whole, repair
+    from chatrobot.recording.repair import copy_whole, is_whole
 
     path = Path(name).expanduser()
     try:
@@ -76,7 +76,7 @@ def read_recording(name: str) -> tuple[Recording, str]:
         elif path.exists() and not path.is_file():  # a pipe cannot be read twice, and may wait for ever
             raise UsageError("this is not a file", where=str(path), allowed="an .mcap file")
         with _progress(path.name) as tell:
-            was_mended = repair(path, tell) is not None
+            was_mended = _mended(path, tell)
             if is_whole(path):
                 return read(path, tell=tell), "repaired" if was_mended else ""
             with tempfile.NamedTemporaryFile(suffix=SUFFIX) as copy:
@@ -85,6 +85,15 @@ def read_recording(name: str) -> tuple[Recording, str]:
                 return read(Path(copy.name), path, tell), "unfinished"
     except OSError as error:
         raise UsageError(error.strerror or str(error), where=str(path), allowed="an .mcap file") from error
+
+
+def _mended(path: Path, tell: Callable[[float], None]) -> bool:
+    """Mend a recording that was cut off, where it can be written; it is read from a copy where it cannot."""
+    from chatrobot.recording.repair import repair
+
+    with contextlib.suppress(OSError):  # of others, on a medium that is read only, or a full one
+        return repair(path, tell) is not None
+    return False
 
 
 @contextlib.contextmanager

@@ -16,7 +16,7 @@ from chatrobot.cli.lines import GOODBYES, PASTE_S, LineReader, TypedAhead
 from chatrobot.cli.recorder import recorded
 from chatrobot.core.events import Notice
 from chatrobot.core.reason import Reason
-from chatrobot.reflex import is_stop
+from chatrobot.reflex import is_stop, leads_with_stop
 
 
 def run(args: argparse.Namespace) -> int:
@@ -79,10 +79,10 @@ class JsonInput:
 
     def hear(self, line: str) -> None:
         """Called by the reader's thread."""
-        if not line.startswith("{"):
+        data = _read_object(line)
+        if data is None:
             self._lines.hear(line)
             return
-        data = _read_object(line)
         text, yes = data.get("text"), data.get("approve")
         if isinstance(text, str) and text.strip():
             self._conversation.hear(text)
@@ -105,9 +105,12 @@ class JsonInput:
             self._approver.answer(self._conversation.session, yes)
 
 
-def _read_object(line: str) -> dict[str, Any]:
+def _read_object(line: str) -> dict[str, Any] | None:
+    """Return the object of a line of JSON, an empty one where it has none; None where the line is a text."""
     try:
         data = json.loads(line)
     except (ValueError, RecursionError):
-        return {}
-    return data if isinstance(data, dict) else {}
+        return {} if line.startswith("{") else None
+    if isinstance(data, dict):
+        return data
+    return None if leads_with_stop(line) else {}  # `"stop"` is JSON of no known form, and stops all the same

@@ -237,6 +237,9 @@ class Finished(Event, name="finished", unmeasured=("start", "pose", "turned_rad"
     part that was not. Driving one after the other is driving the whole plan. Both are empty for a program and where
     nothing measures; `remaining` also where the plan was completed or refused.
 
+    `duration_s` is how long it was driven, and `paused_s` how long it stood between its motions, in a wait of the plan
+    or paused by somebody: neither contains the other.
+
     `late_s` is how late the heartbeat of whoever gave the order was at most, where that slowed the robot: the machine
     was too busy.
     """
@@ -298,7 +301,8 @@ class Result(Event, name="result", unmeasured=("pose", "turned_rad", "path_m")):
     """The last event of every turn; pose and distances are what odometry measured, as in `Finished`, and
     None where `measured` is False.
 
-    `proposal` is a plan that the reply asks about.
+    `duration_s` and `paused_s` are as in `Finished`: neither contains the other. `proposal` is a plan that the reply
+    asks about.
     """
 
     outcome: Outcome

@@ -1,4 +1,4 @@
-"""Keeps the places a person has named, with the odometry epoch of each; how far one is, and were we moved?"""
+"""Keeps the places a person has named, with the session of each; how far one is, and were we moved?"""
 
 from __future__ import annotations
 
@@ -40,12 +40,16 @@ AT_PLACE_M = 1.0
 
 
 class Places:
-    """Keeps the named places of one robot.
+    """Keeps the named places of one robot. Their coordinates hold for one session.
+
+    A base that ran on between two sessions cannot be told from one whose odometry began anew: its messages say where it
+    is and not since when it counts. Coordinates that were kept would lead it to a wrong point, so a later session knows
+    the name alone, and asks.
 
     Args:
         folder: where they are kept; None keeps them for this session only.
         robot: profile name; another robot's places mean nothing to this one.
-        epoch: names this run of odometry. Coordinates of another one are remembered but not usable.
+        epoch: names this session. Coordinates of another one are remembered but not usable.
     """
 
     def __init__(self, folder: Path | None, robot: str, epoch: str) -> None:

@@ -49,7 +49,7 @@ class Understanding:
 
     Args:
         world: its named places can be gone to.
-        folder: where places live between sessions; None for nowhere.
+        folder: where the names of places live between sessions; None for nowhere.
     """
 
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
@@ -66,8 +66,7 @@ class Understanding:
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
         )
-        # The simulated robot's odometry begins anew with every session, as a real one's does at power-on.
-        self.places = Places(folder, profile.name, uuid.uuid4().hex)
+        self.places = Places(folder, profile.name, uuid.uuid4().hex)  # nothing tells whether odometry ran on
         self._rest = RestWatch()
         self._started, self._reaches_robot = False, True
         self.language: LanguageCode = "en"

@@ -14,7 +14,7 @@ from chatrobot.plan.steps import Plan
 
 @dataclass(frozen=True)
 class Place:
-    """A remembered pose in the odom frame. `usable` is False once odometry has started anew since."""
+    """A remembered pose in the odom frame. `usable` is False where an earlier session remembered it (`Places`)."""
 
     pose: Pose
     usable: bool = True

@@ -15,7 +15,7 @@ from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import by_language, say
 from chatrobot.language.points import word_of
-from chatrobot.language.questions import places_known, topic_of, unknown_pose
+from chatrobot.language.questions import places_known, places_told, topic_of, unknown_pose
 from chatrobot.language.rules import Rules, rules
 from chatrobot.language.seen import SECTORS, what_is_seen
 from chatrobot.language.typos import edit_distance
@@ -67,7 +67,7 @@ def answer_about_places(plain: str, language: LanguageCode, context: Context) ->
 
 def _reply(kind: str, named: str, side: str, language: LanguageCode, context: Context) -> str:
     if kind == "places":
-        return say(language, "answer_places", places=places_known(context, language))
+        return places_told(context, language)
     known = _known(context, language)
     place = known.get(_plain(named))
     if kind == "it" and place is None:
@@ -160,6 +160,9 @@ def _known(context: Context, language: str) -> dict[str, _Place]:
 
 
 def _unknown(named: str, known: list[str], language: str, context: Context) -> str:
+    earlier = {_plain(name): name for name, place in context.dialogue.places.items() if not place.usable}
+    if _plain(named) in earlier:
+        return say(language, "place_unusable", part=earlier[_plain(named)])
     reply = say(language, "no_such_place", part=named)
     off = {name: edit_distance(_plain(named), name, _FAR_OFF) for name in known}
     near = [name for name in sorted(off, key=lambda name: off[name]) if off[name] * 2 < len(name)]
@@ -167,7 +170,7 @@ def _unknown(named: str, known: list[str], language: str, context: Context) -> s
         places = _known(context, language)
         shown = list(dict.fromkeys(places[name].name for name in near))[:_MOST_NAMED]
         return f"{reply} {say(language, 'places_near', places=say(language, 'join').join(shown))}"
-    return f"{reply} {say(language, 'answer_places', places=places_known(context, language))}"
+    return f"{reply} {places_told(context, language)}"
 
 
 def _straight_m(place: _Place, context: Context) -> float:

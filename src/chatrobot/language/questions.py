@@ -131,10 +131,21 @@ def _turned(pose: Pose, language: str) -> str:
 
 
 def places_known(context: Context, language: str) -> str:
-    """The person's own places, then those of the world, each once and by its name in that language."""
+    """The places that can be gone to: the person's own, then those of the world, by its name in that language."""
     names = context.place_names or tuple((name,) for name in context.world_places)
-    known = dict.fromkeys((*context.dialogue.places, *(by_language(each, language)[0] for each in names)))
+    own = (name for name, place in context.dialogue.places.items() if place.usable)
+    known = dict.fromkeys((*own, *(by_language(each, language)[0] for each in names)))
     return say(language, "join").join(known) or say(language, "no_place")
+
+
+def places_told(context: Context, language: str) -> str:
+    """The same in a sentence, and which names are left of an earlier session."""
+    told = say(language, "answer_places", places=places_known(context, language))
+    own = context.dialogue.places.items()
+    earlier = [n for n, place in own if not place.usable and n.casefold() not in context.world_places]
+    if not earlier:
+        return told
+    return f"{told} {say(language, 'answer_places_earlier', places=say(language, 'join').join(earlier))}"
 
 
 def unknown_pose(context: Context) -> str:
@@ -147,6 +158,8 @@ def answer(topic: str, language: str, context: Context, profile: RobotProfile) -
     """The answer in words; says so where something is not known."""
     if topic in _MEASURED and unknown_pose(context):
         return say(language, unknown_pose(context))
+    if topic == "places":
+        return places_told(context, language)
     if topic in _OF_TURNS:
         return _told_of(topic, language, context.dialogue)
     if topic == "last" and not context.dialogue.turns:
@@ -192,7 +205,6 @@ def _values(language: str, context: Context, profile: RobotProfile) -> dict[str,
         "max_rate_radps": profile.limits.max_rate_radps,
         "default_speed_mps": context.dialogue.usual.speed_mps or profile.defaults.speed_mps,
         "title": profile.title,
-        "places": places_known(context, language),
         "last": context.dialogue.turns[-1].text if context.dialogue.turns else None,
         "percent": state.battery_percent,
         "distance_m": state.obstacle_m,

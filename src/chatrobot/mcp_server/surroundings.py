@@ -86,7 +86,7 @@ def places_of(connection: Connection, pose: Pose | None) -> list[dict[str, Any]]
 
 
 def lost_places(connection: Connection) -> list[str]:
-    """Return remembered places whose coordinates no longer hold: odometry has begun anew since."""
+    """Return the places of earlier sessions: nobody knows whether odometry has begun anew since."""
     places = connection.session.understanding.places.all()
     return sorted(name for name, place in places.items() if not place.usable)
 

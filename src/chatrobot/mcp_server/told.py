@@ -199,7 +199,7 @@ def _measured_lines(course: Course, result: Result, language: str) -> list[str]:
     if not result.has_moved and result.outcome not in ("completed", "stopped"):
         return course.notes if result.outcome == "answered" else []
     at = in_words(pose_told(result.pose))
-    return [f"It took {result.duration_s:.1f} s; the robot is now {at}.", *course.notes]
+    return [f"It moved for {result.duration_s:.1f} s; the robot is now {at}.", *course.notes]
 
 
 def _faults(course: Course) -> list[str]:

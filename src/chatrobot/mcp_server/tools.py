@@ -197,7 +197,7 @@ class Tools:
         names = "; ".join(surroundings.place_in_words(place) for place in found) or "none are known"
         text = f"Places: {names}."
         if lost:
-            text += f" Remembered, but not to be found since the robot was started anew: {', '.join(lost)}."
+            text += f" Remembered in an earlier session, so nobody knows where it is now: {', '.join(lost)}."
         return answer(text, {"places": found, "lost": lost})
 
     @staticmethod

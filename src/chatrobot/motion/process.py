@@ -8,6 +8,7 @@ class are one process: `--wire` comes once for each robot, and `--fd` names one 
 
 from __future__ import annotations
 
+import contextlib
 import json
 import signal
 import socket
@@ -133,7 +134,10 @@ def main(arguments: list[str]) -> int:
             for place, address in enumerate(addresses)
         ]
         for line in lines[::clients]:
-            line.send(ready())
+            with contextlib.suppress(
+                OSError
+            ):  # gone already: the reader's end of file says so, and the loop ends
+                line.send(ready())
         shared[0].loop.run(runners)
     except WireError:
         return 1  # the robot's end is gone
