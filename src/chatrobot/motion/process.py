@@ -134,9 +134,7 @@ def main(arguments: list[str]) -> int:
             for place, address in enumerate(addresses)
         ]
         for line in lines[::clients]:
-            with contextlib.suppress(
-                OSError
-            ):  # gone already: the reader's end of file says so, and the loop ends
+            with contextlib.suppress(OSError):  # gone already: the reader's end of file ends the loop
                 line.send(ready())
         shared[0].loop.run(runners)
     except WireError:
