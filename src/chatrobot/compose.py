@@ -33,7 +33,7 @@ from chatrobot.robots.profile import NOT_CHOSEN, MotionBudget, RobotProfile
 from chatrobot.sim.fault_injection import FaultInjection
 from chatrobot.sim.load import load_world
 from chatrobot.sim.robot import TRUTH_TOPIC, SimRobot
-from chatrobot.sim.world import World, check_known, check_start
+from chatrobot.sim.world import World, check_known, check_start, frame_of
 from chatrobot.wire.connect import connect_wire, is_on_this_machine, wire_address
 from chatrobot.wire.messages import Odometry
 from chatrobot.wire.wire import Wire
@@ -149,8 +149,10 @@ class Prepared:
         self.world = load_world(setup.world)
         self.listen: Callable[[], tuple[Wire, Clock]]
         check_known(self.world, profile)
-        self.understanding = Understanding(profile, self.world, setup.folder)
-        self.understanding.is_simulated = setup.on in SIMULATED
+        is_simulated = setup.on in SIMULATED
+        frame = frame_of(self.world) if is_simulated else ""
+        self.understanding = Understanding(profile, self.world, setup.folder, frame)
+        self.understanding.is_simulated = is_simulated
 
     def session(self, link: MotionLink, on_event: OnEvent) -> Session:
         """Build the session that talks over `link`."""

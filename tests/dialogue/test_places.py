@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from tests.dialogue.talk import Talk
 
+import chatrobot
 from chatrobot.core.events import Notice
 from chatrobot.core.geometry import Pose
 from chatrobot.dialogue.options import Options
@@ -34,10 +35,12 @@ EARLIER = {
 
 @pytest.fixture
 def later(tmp_path: Path) -> Talk:
-    """A session after the one that remembered a place."""
+    """A session after the one that remembered a place, as on a real robot."""
     earlier = Talk(folder=tmp_path)
     assert earlier.do("remember this place as depot").outcome == "answered"
     assert earlier.do("forward 50 cm, then go to depot").outcome == "completed"
+    file = tmp_path / "places.json"
+    file.write_text(file.read_text().replace("simulated ", "a real robot, not "))
     return Talk(folder=tmp_path)
 
 
@@ -70,6 +73,20 @@ def test_places_of_an_earlier_session_are_told_apart(
     assert reply.startswith(known)
     assert earlier in reply.removeprefix(known)
     assert "depot" in reply.removeprefix(known)
+
+
+@pytest.mark.parametrize(("world", "outcome"), [("empty", "completed"), ("home", "unclear")])
+def test_a_place_of_a_simulated_world_holds_in_later_sessions_of_that_world_alone(
+    tmp_path: Path, world: str, outcome: str
+) -> None:
+    with chatrobot.connect(fast=True, world="empty", config_dir=tmp_path) as robot:
+        robot.do("forward 50 cm, then turn left")
+        robot.do("remember this place as depot")
+    with chatrobot.connect(fast=True, world=world, config_dir=tmp_path) as robot:
+        assert robot.do("go to depot").outcome == outcome
+        pose = robot.pose
+    assert pose is not None
+    assert pose.distance_to(Pose(0.5 if outcome == "completed" else 0.0)) < 0.02
 
 
 def test_robots_do_not_share_places(tmp_path: Path) -> None:

@@ -40,16 +40,17 @@ AT_PLACE_M = 1.0
 
 
 class Places:
-    """Keeps the named places of one robot. Their coordinates hold for one session.
+    """Keeps the named places of one robot. Their coordinates hold for one session, and in one world of a simulation.
 
     A base that ran on between two sessions cannot be told from one whose odometry began anew: its messages say where it
     is and not since when it counts. Coordinates that were kept would lead it to a wrong point, so a later session knows
-    the name alone, and asks.
+    the name alone, and asks. A simulated robot begins every session at the start of its world.
 
     Args:
         folder: where they are kept; None keeps them for this session only.
         robot: profile name; another robot's places mean nothing to this one.
-        epoch: names this session. Coordinates of another one are remembered but not usable.
+        epoch: names this session, or the frame that it shares with others. Coordinates of another one are remembered
+            but not usable.
     """
 
     def __init__(self, folder: Path | None, robot: str, epoch: str) -> None:

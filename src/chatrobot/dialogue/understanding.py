@@ -49,10 +49,12 @@ class Understanding:
 
     Args:
         world: its named places can be gone to.
-        folder: where the names of places live between sessions; None for nowhere.
+        folder: where places live between sessions; None for nowhere.
+        frame: names the odom frame where it is the same in every session: that of a simulated robot, which begins at
+            the start of its world; empty where nothing tells whether odometry ran on.
     """
 
-    def __init__(self, profile: RobotProfile, world: World, folder: Path | None) -> None:
+    def __init__(self, profile: RobotProfile, world: World, folder: Path | None, frame: str = "") -> None:
         self.is_simulated = False
         """Whether things can be put around the robot and taken away."""
         self._profile, self._interpreter = profile, OfflineInterpreter(profile)
@@ -66,7 +68,7 @@ class Understanding:
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
         )
-        self.places = Places(folder, profile.name, uuid.uuid4().hex)  # nothing tells whether odometry ran on
+        self.places = Places(folder, profile.name, frame or uuid.uuid4().hex)
         self._rest = RestWatch()
         self._started, self._reaches_robot = False, True
         self.language: LanguageCode = "en"

@@ -6,6 +6,7 @@ the frame of the world and `odom` are the same.
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -164,6 +165,12 @@ def check_known(world: World, profile: RobotProfile) -> None:
             where=f"world {world.name}",
             allowed="empty",
         )
+
+
+def frame_of(world: World) -> str:
+    """Return a name of the odom frame of a robot that begins at the start of `world`: the same in every run of it."""
+    told = repr((world.name, world.start, world.obstacles))
+    return f"simulated {world.name} {hashlib.sha256(told.encode()).hexdigest()[:16]}"
 
 
 def check_start(world: World, profile: RobotProfile, where: str) -> None:
