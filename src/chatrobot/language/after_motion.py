@@ -141,6 +141,13 @@ def _is_slide(dialogue: Dialogue) -> bool:
     return [*map(is_sideways, _steps(dialogue.last_motion))] == [True]
 
 
+def _is_straight(dialogue: Dialogue) -> bool:
+    """Whether its last motion was one drive ahead or back."""
+    steps = _steps(dialogue.last_motion)
+    [step] = steps if len(steps) == 1 else [None]
+    return isinstance(step, Drive) and abs(_parts(step)[1]) < 1e-6
+
+
 def _ends_askew(dialogue: Dialogue) -> bool:
     """Whether its last motion ended with a drive that was not straight ahead."""
     moves = [step for step in _steps(dialogue.last_motion) if not isinstance(step, Wait)]
@@ -233,6 +240,7 @@ def _not_straight(dialogue: Dialogue) -> bool:
 _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "about": _is_about,
     "drive": _only(Drive),
+    "straight": _is_straight,
     "place": _only(Go),
     "turn": _only(Turn),
     "curve": _only(Arc),

@@ -22,11 +22,7 @@ from chatrobot.language.acts import (
 )
 from chatrobot.language.after_motion import as_meant_after
 from chatrobot.language.bare_orders import is_doubted_beside
-from chatrobot.language.beside import (
-    are_asides,
-    odds_beside_asides,
-    refers_alone,
-)
+from chatrobot.language.beside import are_asides, odds_beside_asides, refers_alone
 from chatrobot.language.compass import split_convention
 from chatrobot.language.consent import after_consent
 from chatrobot.language.context import Context
@@ -54,18 +50,13 @@ from chatrobot.language.putting import read_putting
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
 from chatrobot.language.rephrase import in_full, in_full_after, rephrased, with_breaks
-from chatrobot.language.resuming import asked_for_rest, with_rest
+from chatrobot.language.resuming import of_rest
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.slips import without_slips
 from chatrobot.language.speed_limit import bounded, plan_within, within_limit, without_limit
-from chatrobot.language.starting import (
-    as_ordered,
-    has_a_stop_line,
-    with_told_apart,
-    without_hold,
-)
+from chatrobot.language.starting import as_ordered, has_a_stop_line, with_told_apart, without_hold
 from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.to_taught import to_taught
 from chatrobot.language.tutorial_form import read_twists
@@ -93,14 +84,13 @@ class OfflineInterpreter:
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
-        try:
-            rest, context = with_rest(text, language, context)
-        except Unclear as problem:
-            return asked_back(problem, language)
-        said, context = with_points(rest, context)
+        return of_rest(text, language, context, self._with_points) or self._with_points(
+            text, language, context
+        )
+
+    def _with_points(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
+        said, context = with_points(text, context)
         meant = read_glossed(said, language, context, self._read)
-        if rest != text:
-            return asked_for_rest(meant, text, language)
         return replace(meant, reply=naming_points(meant.reply, context)) if said != text else meant
 
     def _read(self, text: str, language: LanguageCode, context: Context) -> Interpretation:

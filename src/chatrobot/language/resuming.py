@@ -20,6 +20,8 @@ _REST = "restqx"
 """The word for what is left of a stopped plan, in the text that asks for it alone."""
 _SHOWN = 60
 
+Reader = Callable[[str, LanguageCode, Context], Interpretation]
+
 
 def wants_to_resume(text: str, *, may_mean_more: bool = True) -> bool:
     """Whether `text` says to go on, and nothing else.
@@ -55,34 +57,32 @@ def saying(words: Sequence[str], beside: Sequence[str], language: str) -> Callab
     return says
 
 
-def with_rest(text: str, language: LanguageCode, context: Context) -> tuple[str, Context]:
-    """A text in which what is left of the plan that was stopped last is a taught word: `continue, but slowly`.
+def of_rest(text: str, language: LanguageCode, context: Context, read: Reader) -> Interpretation | None:
+    """What asks for the rest of the plan that was stopped last, beside other words: `continue, but slowly`; else None.
 
-    Raises:
-        Unclear: it speaks of the rest in words that are not known: `only half of the rest`.
+    As after a stop, nothing is driven before a yes. What else speaks of the rest is asked about.
     """
     last = context.dialogue.last_motion
     if last is None or last.outcome != "stopped" or last.remaining is None:
-        return text, context
-    goes_on, speaks_of_it = _of_rest(language)
+        return None
+    goes_on, speaks_of_it = _patterns(language)
     said = goes_on.sub(f" {_REST} ", text)
     if said == text:
-        if speaks_of_it.search(text) and not text.rstrip().endswith(("?", "？")):
-            raise Unclear("unclear_motion", text[:_SHOWN])
-        return text, context
+        asks = text.rstrip().endswith(("?", "？"))
+        return None if asks or not speaks_of_it.search(text) else _unclear(text, language)
     words = {**context.dialogue.words, _REST: last.remaining}
-    return said, replace(context, dialogue=replace(context.dialogue, words=words))
-
-
-def asked_for_rest(meant: Interpretation, said: str, language: LanguageCode) -> Interpretation:
-    """What a text with the rest of a stopped plan means: as after a stop, nothing is driven before a yes."""
+    meant = read(said, language, replace(context, dialogue=replace(context.dialogue, words=words)))
     if meant.plan is None or meant.define:
-        return asked_back(Unclear("unclear_motion", said[:_SHOWN]), language)
+        return _unclear(text, language)
     return proposed(meant, language) or meant
 
 
+def _unclear(text: str, language: LanguageCode) -> Interpretation:
+    return asked_back(Unclear("unclear_motion", text[:_SHOWN]), language)
+
+
 @cache
-def _of_rest(language: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
+def _patterns(language: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
     table = load_table(language, "resuming")
     said = sorted((*table["words"], *table["more"]), key=len, reverse=True)
     words = "|".join(re.escape(word).replace(r"\ ", ",? ") for word in said)
