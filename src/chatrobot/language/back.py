@@ -40,7 +40,7 @@ def slid_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:
     if not slid or whole.q:
         return None
     if (whole.verb, whole.direction) == ("slide", "back") and not whole.flags:
-        return inverse(list(driven_steps(last)), pace.speed(whole))
+        return retraced(context, pace.speed(whole))
     a_bit = whole.flags in ({"bit"}, {"bit", "more"}) and whole.verb in ("", "go", "shift") and not whole.rot
     if not a_bit or whole.direction not in SIDES:
         return None
@@ -74,6 +74,11 @@ def driven_back(whole: Frame, context: Context, pace: Pace) -> list[Step] | None
     ahead = isinstance(step, Drive) and step.direction_rad == 0.0 and step.until is None and step.distance_m
     is_way = ahead or (isinstance(step, Arc) and not step.backward)
     return inverse([step], pace.speed(whole)) if step is not None and is_way else None
+
+
+def retraced(context: Context, speed_mps: float | None) -> list[Step]:
+    """What was driven last, the way back."""
+    return inverse(list(driven_steps(context.dialogue.last_motion)), speed_mps)
 
 
 def only_turned(context: Context) -> bool:

@@ -14,6 +14,7 @@ from chatrobot.language.back import (
     only_slid,
     only_turned,
     part_way_back,
+    retraced,
     slid_back,
     straight_to_start,
 )
@@ -22,14 +23,8 @@ from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import load_table
 from chatrobot.language.edits import mirrored
 from chatrobot.language.frames import GO, SIDES, Frame
-from chatrobot.language.inverse import flipped, inverse
-from chatrobot.language.last_motion import (
-    check_answers_nothing,
-    driven_steps,
-    motion_meant,
-    shapes_said,
-    steps_of,
-)
+from chatrobot.language.inverse import flipped
+from chatrobot.language.last_motion import check_answers_nothing, motion_meant, shapes_said, steps_of
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
 from chatrobot.language.measures import whole_number
@@ -107,7 +102,7 @@ def _to_the_start(whole: Frame, frames: Sequence[Frame], context: Context, pace:
     if {"bit", "halfway"} & flags and not is_chinese(whole.text):
         raise Unclear("how_far", whole.text)  # `come back a little`: not all the way
     if ("to_start" not in flags and only_turned(context)) or only_slid(context):
-        return inverse(list(driven_steps(context.dialogue.last_motion)), pace.speed(whole))
+        return retraced(context, pace.speed(whole))
     go = Go(start.x_m, start.y_m, frame="odom", speed_mps=pace.speed(whole))
     return straight_to_start(whole, context, pace) or [go]
 
