@@ -149,10 +149,8 @@ class Prepared:
         self.world = load_world(setup.world)
         self.listen: Callable[[], tuple[Wire, Clock]]
         check_known(self.world, profile)
-        is_simulated = setup.on in SIMULATED
-        frame = frame_of(self.world) if is_simulated else ""
+        frame = frame_of(self.world) if setup.on in SIMULATED else ""
         self.understanding = Understanding(profile, self.world, setup.folder, frame)
-        self.understanding.is_simulated = is_simulated
 
     def session(self, link: MotionLink, on_event: OnEvent) -> Session:
         """Build the session that talks over `link`."""

@@ -55,7 +55,7 @@ class Understanding:
     """
 
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None, frame: str = "") -> None:
-        self.is_simulated = False
+        self.is_simulated = bool(frame)
         """Whether things can be put around the robot and taken away."""
         self._profile, self._interpreter = profile, OfflineInterpreter(profile)
         self._dialogue = Dialogue()
