@@ -78,7 +78,15 @@ def test_a_robot_outside_may_come_back_and_go_no_farther() -> None:
     away = rule.judge(Twist(0.3, 0.0, 0.0), half_out)
     assert away.factor == 0.0
     assert away.reason is not None
-    assert away.reason.values["distance_m"] == 0.0
+    assert (away.reason.code, away.reason.values) == ("outside_fence", {"distance_m": 0.09})
+
+
+def test_a_robot_at_the_edge_is_told_of_the_edge() -> None:
+    """Odometry knows no place to the millimetre."""
+    edge = Pose(1.0 - max(x for x, _ in MECANUM.footprint) + 0.002, 0.0, 0.0)
+    ruling = FenceRule(MECANUM, SQUARE).judge(Twist(0.3, 0.0, 0.0), at(edge))
+    assert ruling.reason is not None
+    assert (ruling.reason.code, ruling.reason.values) == ("leaves_fence", {"distance_m": 0.0})
 
 
 def test_without_a_pose_nothing_moves_inside_a_fence_and_zero_is_always_fine() -> None:

@@ -23,6 +23,17 @@ def test_a_base_with_a_timeout_stops_after_it(robot: str, holds_s: float, asked_
     assert environment.path[-1][1] == pytest.approx(0.1 * holds_s, abs=0.01)
 
 
+@pytest.mark.parametrize("robot", ["turtlebot4", "originbot", "turtlesim"])
+def test_a_base_with_a_timeout_drives_on_while_it_is_told_again(robot: str) -> None:
+    """As the control loop tells it, whose clock does not skip what stays the same."""
+    environment = RehearsalEnvironment(load_profile(robot))
+    for tenth in range(50):
+        environment.advance(tenth / 10)
+        environment.ask(AHEAD)
+    environment.advance(5.0)
+    assert environment.path[-1][1] == pytest.approx(0.5, abs=0.02)
+
+
 def test_a_base_without_one_holds_on() -> None:
     environment = RehearsalEnvironment(load_profile("wheeltec_mini_mec"))
     environment.ask(AHEAD)

@@ -22,8 +22,9 @@ from chatrobot.governor.contact import (
 from chatrobot.governor.kernel import Braking
 from chatrobot.governor.obstacle_memory import ObstacleMemory
 from chatrobot.governor.rule import FREE, Ruling, Situation, silent_after_s
+from chatrobot.plan.fenced_path import OUTSIDE_M, Fence, FenceRuleOf, FenceShare
 from chatrobot.plan.swept_path import fence_clearance, outline_points, transformed
-from chatrobot.robots.profile import Circle, Point, RobotProfile
+from chatrobot.robots.profile import Point, RobotProfile
 
 MARGIN_M = 0.03
 RELEASE_M = 0.03
@@ -171,7 +172,7 @@ class FenceRule:
 
     name = "fence"
 
-    def __init__(self, profile: RobotProfile, fence: Circle | Sequence[Point]) -> None:
+    def __init__(self, profile: RobotProfile, fence: Fence) -> None:
         self._limits = profile.limits
         self._outline = outline_points(profile.footprint)
         self._radius_m = profile.footprint_radius_m
@@ -200,6 +201,21 @@ class FenceRule:
         placed = transformed(self._outline, poses).reshape(-1, 2)
         spare = self._clearance(placed).reshape(SAMPLES, -1).min(axis=1, keepdims=True)
         factor = braking.factor_within(seconds_until_below(spare, times, 0.0))
-        if factor == 1.0:
-            return FREE
-        return Ruling(factor, Reason("leaves_fence", {"distance_m": round(max(0.0, float(spare[0, 0])), 2)}))
+        return FREE if factor == 1.0 else Ruling(factor, _at_the_fence(float(spare[0, 0])))
+
+
+def fence_rules(profile: RobotProfile) -> FenceRuleOf:
+    """Return what makes the rule for a fence, as rehearsals of that robot ask it."""
+
+    def rule_of(fence: Fence) -> FenceShare:
+        rule = FenceRule(profile, fence)
+        return lambda asked, pose: rule.judge(asked, Situation(pose)).factor
+
+    return rule_of
+
+
+def _at_the_fence(spare_m: float) -> Reason:
+    """Why a robot that has so much to spare, or stands so far outside, may not go on."""
+    if spare_m < -OUTSIDE_M:
+        return Reason("outside_fence", {"distance_m": round(-spare_m, 2)})
+    return Reason("leaves_fence", {"distance_m": round(max(0.0, spare_m), 2)})

@@ -13,6 +13,7 @@ from chatrobot.core.events import Event, FindingSeen, Rehearsed
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.kernel import make_kernel
+from chatrobot.governor.space_rules import fence_rules
 from chatrobot.motion.budgets import Extent
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, RoutesAroundObstacles, seen_but_unknown
 from chatrobot.plan.context import RoutePlanner
@@ -177,6 +178,7 @@ class Planner:
     def __init__(self, profile: RobotProfile, world: World) -> None:
         self._profile = profile
         self._kernel = make_kernel(profile)
+        self._fence_rule = fence_rules(profile)
         self._base = world
         self._known = self._routes_in(world)
         self.added: tuple[Obstacle, ...] = ()
@@ -230,6 +232,7 @@ class Planner:
             governor=self._kernel,
             route_planner=routes if seen is None else self._around(seen, world, routes),
             seen=seen,
+            fence_rule=self._fence_rule,
         )
         rehearsal = rehearsing(plan, plan_start=plan_start)
         if rehearsal.possible is None:

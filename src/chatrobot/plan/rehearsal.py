@@ -15,7 +15,7 @@ import numpy as np
 
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import Pose, Twist
-from chatrobot.core.reason import Reason
+from chatrobot.core.reason import Reason, Value
 from chatrobot.plan.base import Plan
 from chatrobot.plan.context import (
     MAX_DURATION_S,
@@ -28,6 +28,7 @@ from chatrobot.plan.context import (
     too_far,
     too_long,
 )
+from chatrobot.plan.fenced_path import Fence, FenceRuleOf, nothing_passes, outside_m, way_out
 from chatrobot.plan.free_part import Leg, leg_at, nearest_part, part_up_to, with_room
 from chatrobot.plan.known_world import Contact, Floats, GovernorKernel, KnownWorld, SeenWorld, obstacle_values
 from chatrobot.plan.lowering import CoreWalk, PlannedMotion
@@ -37,7 +38,6 @@ from chatrobot.plan.swept_path import (
     ANY_WAY,
     GovernorCheck,
     Most,
-    fence_clearance,
     first_contact,
     free_ahead_m,
     pose_of,
@@ -46,7 +46,7 @@ from chatrobot.plan.swept_path import (
     tick_times,
 )
 from chatrobot.plan.trajectory import Pause, RampedTwist, Segment
-from chatrobot.robots.profile import Circle, Point, RobotProfile
+from chatrobot.robots.profile import RobotProfile
 
 MARGIN_M = 0.04
 """A little more than the governor keeps from what the lidar sees, so that what was rehearsed is not stopped."""
@@ -114,6 +114,7 @@ def rehearse(
     route_planner: RoutePlanner | None = None,
     seen: SeenWorld | None = None,
     most: Most = ANY_WAY,
+    fence_rule: FenceRuleOf = nothing_passes,
 ) -> Rehearsal:
     """Rehearse `plan` from `start_pose` (odom frame).
 
@@ -124,6 +125,7 @@ def rehearse(
         route_planner: for `go`; by default a grid search in `world`.
         seen: what the lidar has seen; None where there is none.
         most: how far and how long a plan may drive; what is `possible` of one that drives more is told.
+        fence_rule: what the governor allows at a fence, for a robot that stands outside it.
     """
     if route_planner is None and world is not None and not world.is_empty:
         from chatrobot.plan.route import GridRoutePlanner
@@ -131,7 +133,7 @@ def rehearse(
         route_planner = GridRoutePlanner(world, profile)
     context = LoweringContext(profile, start_pose, plan_start or start_pose, route_planner)
     rounded = Rounded(plan) if profile.can_turn_on_the_spot else round_corners(plan, profile)
-    run = _Run(rounded.plan, context, world, governor, seen, most)
+    run = _Run(rounded.plan, context, world, governor, seen, most, fence_rule)
     run.findings += rounded.findings
     if not any(finding.severity == "refuse" for finding in run.findings):
         run.drive()
@@ -140,7 +142,7 @@ def rehearse(
         return found
     again = partial(
         rehearse, profile=profile, world=world, start_pose=start_pose, governor=governor,
-        plan_start=plan_start, route_planner=route_planner, seen=seen, most=most,
+        plan_start=plan_start, route_planner=route_planner, seen=seen, most=most, fence_rule=fence_rule,
     )  # fmt: skip
     return replace(found, possible=with_room(plan, profile, lambda roomier: again(roomier).ok))
 
@@ -156,6 +158,7 @@ class _Run:
         governor: GovernorKernel,
         seen: SeenWorld | None,
         most: Most,
+        fence_rule: FenceRuleOf,
     ) -> None:
         self.plan = plan
         self.context = context
@@ -163,6 +166,7 @@ class _Run:
         self.area = world.allowed_area if world is not None else None
         self.seen = seen
         self.most = most
+        self.fence_rule = fence_rule
         self.governor = GovernorCheck(governor)
         self.findings: list[Finding] = []
         self.legs: list[Leg] = []
@@ -276,20 +280,30 @@ class _Run:
         if self.world is not None:
             solid.append(first_contact(poses, footprint, self.world.clearance_m, MARGIN_M))
         self._block(rows, "would_collide", solid)
-        fences: list[Circle | Sequence[Point]] = [self.area.points] if self.area is not None else []
-        if self.context.profile.safety.fence is not None:
-            fences.append(self.context.profile.safety.fence)
-        left = [
-            first_contact(poses, footprint, fence_clearance(fence), 0.0, core_stays_clear=False)
-            for fence in fences
-        ]
-        self._block(rows, "leaves_area", left)
+        self._stay_inside(rows)
         row = self.most.first_row_over(rows)
         if row < len(rows) and not any(finding.severity == "refuse" for finding in self.findings):
             self.possible, _ = part_up_to(self.plan, self.context, self.legs, row, self.most.length_m)
 
-    def _block(self, rows: Floats, code: str, contacts: Sequence[Contact | None]) -> None:
-        """Refuse the plan for the first of the contacts, if there is one."""
+    def _stay_inside(self, rows: Floats) -> None:
+        """Find where it leaves its area, or gets farther out; say that it stands outside, even where it comes back."""
+        fences: list[Fence] = [self.area.points] if self.area is not None else []
+        if self.context.profile.safety.fence is not None:
+            fences.append(self.context.profile.safety.fence)
+        footprint = self.context.profile.footprint
+        found = [way_out(rows, footprint, fence, self.fence_rule) for fence in fences]
+        first = min((way for way in found if way is not None), key=lambda way: way.contact.row, default=None)
+        out_m = max((outside_m(self.context.pose, footprint, fence) for fence in fences), default=0.0)
+        if first is not None and first.is_outside:
+            self._block(rows, "outside_area", [first.contact], outside_m=out_m)
+            return
+        if out_m > 0.0:
+            self.findings.append(Finding("note", Reason("stands_outside", {"outside_m": out_m})))
+        if first is not None:
+            self._block(rows, "leaves_area", [first.contact])
+
+    def _block(self, rows: Floats, code: str, contacts: Sequence[Contact | None], **about: Value) -> None:
+        """Refuse the plan for the first of the contacts, if there is one; `about`: what else its reason tells."""
         contact = min((found for found in contacts if found is not None), key=lambda c: c.row, default=None)
         if contact is None:
             return
@@ -298,6 +312,7 @@ class _Run:
         values: dict[str, float | int | str] = {
             "distance_m": float(driven[first_row:].sum()),
             "total_m": float(driven.sum()),
+            **about,
         }
         if contact.row < self._blocked_row:
             self._blocked_row = contact.row

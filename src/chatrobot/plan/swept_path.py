@@ -154,22 +154,20 @@ def first_contact(
     footprint: Sequence[Point],
     clearance: Clearance,
     margin_m: float,
-    *,
-    core_stays_clear: bool = True,
 ) -> Contact | None:
     """Return the first of [n, 3] poses where any point of the outline has less than `margin_m` to spare.
 
     Where the first pose itself has less, the robot may go on as long as it does not get (`GIVE_M`) closer, so that
-    it can leave a wall it stands at, or come back into its area. With `core_stays_clear` the footprint without its
-    outermost `STUCK_M` has to be clear in any case.
+    it can leave a wall it stands at. The footprint without its outermost `STUCK_M` has to be clear in any case.
     """
     outline = outline_points(footprint)
-    _, at_start = _closest(poses[:1], outline, clearance)
+    _, at_start = closest(poses[:1], outline, clearance)
     if at_start[0] > margin_m:
         return _first_below(poses, outline, clearance, margin_m)
-    found = [_first_below(poses, outline, clearance, float(at_start[0]) - GIVE_M)]
-    if core_stays_clear:
-        found.append(_first_below(poses, _shrunk(outline), clearance, 0.0))
+    found = [
+        _first_below(poses, outline, clearance, float(at_start[0]) - GIVE_M),
+        _first_below(poses, _shrunk(outline), clearance, 0.0),
+    ]
     return min((contact for contact in found if contact is not None), key=lambda c: c.row, default=None)
 
 
@@ -185,7 +183,7 @@ def _first_below(poses: Floats, outline: Floats, clearance: Clearance, needed_m:
     close = np.flatnonzero(clearance(poses[:, :2]) < radius_m + needed_m)
     for begin in range(0, len(close), _CHUNK_ROWS):
         rows = close[begin : begin + _CHUNK_ROWS]
-        points, spare = _closest(poses[rows], outline, clearance)
+        points, spare = closest(poses[rows], outline, clearance)
         bad = np.flatnonzero(spare < needed_m)
         if len(bad):
             x, y = points[bad[0]]
@@ -193,7 +191,7 @@ def _first_below(poses: Floats, outline: Floats, clearance: Clearance, needed_m:
     return None
 
 
-def _closest(poses: Floats, outline: Floats, clearance: Clearance) -> tuple[Floats, Floats]:
+def closest(poses: Floats, outline: Floats, clearance: Clearance) -> tuple[Floats, Floats]:
     """Return per pose the outline point with the least clearance [n, 2], and that clearance [n]."""
     placed = transformed(outline, poses)
     spare = clearance(placed.reshape(-1, 2)).reshape(len(poses), -1)

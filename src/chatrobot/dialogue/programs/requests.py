@@ -42,7 +42,7 @@ MENDABLE = frozenset(
         "program_exit_code",
         "program_waits_for_ever", "program_never_stops", "program_moves_nothing", "program_not_finite",
         "program_other_topic", "program_topic_silent", "program_too_busy", "program_vanished", "limited",
-        "would_collide", "leaves_area", "leaves_fence",
+        "would_collide", "leaves_area", "leaves_fence", "outside_area", "outside_fence",
     }
 )  # fmt: skip
 """What a model is asked to mend."""

@@ -16,13 +16,15 @@ import numpy as np
 from chatrobot.core.events import ProgramRehearsed
 from chatrobot.core.geometry import ORIGIN, Pose, Twist
 from chatrobot.core.reason import Reason, Value
+from chatrobot.governor.space_rules import fence_rules
 from chatrobot.motion.programs.clocks import SteppedProgram
 from chatrobot.motion.programs.rehearsal_environment import RehearsalEnvironment
 from chatrobot.motion.remembered_obstacles import RememberedObstacles, with_seen
 from chatrobot.plan.context import Finding, Severity
+from chatrobot.plan.fenced_path import outside_m, way_out
 from chatrobot.plan.known_world import Contact, Floats, obstacle_values
 from chatrobot.plan.rehearsal import MARGIN_M, RehearsedPath, limited_reason
-from chatrobot.plan.swept_path import area_clearance, first_contact
+from chatrobot.plan.swept_path import first_contact
 from chatrobot.programs.events import (
     ENDS,
     Beat,
@@ -293,11 +295,25 @@ def _about_the_way(
     unknown = seen.first_contact(poses) if seen is not None else None
     if unknown is not None:
         yield _contact("would_collide", path, unknown, margin_m=MARGIN_M)
-    if world.allowed_area is not None:
-        clearance = area_clearance(world.allowed_area.points)
-        left = first_contact(poses, footprint, clearance, 0.0, core_stays_clear=False)
-        if left is not None:
-            yield _contact("leaves_area", path, left)
+    yield from _about_fences(path, profile, world)
+
+
+def _about_fences(path: Floats, profile: RobotProfile, world: World) -> Iterator[Finding]:
+    """At the profile's own fence the governor of the rehearsal has stopped the program, as it will."""
+    start, footprint = Pose(*path[0, 1:].tolist()), profile.footprint
+    area = world.allowed_area.points if world.allowed_area is not None else None
+    fences = [fence for fence in (area, profile.safety.fence) if fence is not None]
+    out_m = max((outside_m(start, footprint, fence) for fence in fences), default=0.0)
+    left = None
+    if area is not None:
+        left = way_out(path, footprint, area, fence_rules(profile))
+    if left is not None and left.is_outside:
+        yield _contact("outside_area", path, left.contact, outside_m=out_m)
+        return
+    if out_m > 0.0:
+        yield _found("note", "stands_outside", outside_m=out_m)
+    if left is not None:
+        yield _contact("leaves_area", path, left.contact)
 
 
 def _contact(code: str, path: Floats, contact: Contact, **about: Value) -> Finding:

@@ -37,7 +37,10 @@ class RehearsalEnvironment:
         self._profile = profile
         self._clock = VirtualClock()
         hub = MemoryHub()
-        self.robot = SimRobot(profile, world, NO_FAULTS, wire=hub.connect(), clock=self._clock, start=start)
+        # The control loop sends 50 times a second, here only what changes is sent: this base must not time out. `_held`
+        # ends what the program published, after as long.
+        held_on = replace(profile, wiring=replace(profile.wiring, base_timeout_s=None))
+        self.robot = SimRobot(held_on, world, NO_FAULTS, wire=hub.connect(), clock=self._clock, start=start)
         self.robot.listen_to(sensors=False, lidar=False)
         epoch = StopEpoch()
         wire = hub.connect()
