@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from tests.dialogue.talk import Talk, said_while_moving
 
@@ -115,18 +113,6 @@ def test_the_kitchen_is_reached_through_the_door() -> None:
     assert result.outcome == "completed"
     kitchen = talk.connection.world.places["kitchen"]
     assert result.pose.distance_to(kitchen) < 0.05
-
-
-def test_a_place_is_remembered_between_sessions_but_not_across_odometry(tmp_path: Path) -> None:
-    first = Talk(folder=tmp_path)
-    first.session.do("forward 1 m")
-    assert first.session.do("remember this spot as dock").outcome in ("answered", "completed")
-    first.session.do("forward 1 m")
-    assert first.session.do("go back to dock").pose.x_m == pytest.approx(1.0, abs=0.02)
-    second = Talk(folder=tmp_path)
-    result = second.session.do("go to dock")
-    assert result.outcome == "unclear"
-    assert result.path_m == 0.0
 
 
 @pytest.mark.parametrize(
