@@ -20,7 +20,7 @@ from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.interpretation import Interpretation, Placement
 from chatrobot.language.phrases import say
-from chatrobot.language.resuming import wants_to_resume
+from chatrobot.language.resuming import goes_on_beside, wants_to_resume
 from chatrobot.language.shape_parts import asks_for_rest
 from chatrobot.link.envelope import MOST_CHARACTERS, OBSTACLE_RADIUS_M
 from chatrobot.link.motion_link import MotionLink
@@ -102,7 +102,7 @@ class Dispatch:
             if utterance.kind == "pause":
                 reply = self._told("paused_now", self._resuming.paused)
             else:
-                self._understanding.forget_held()
+                self._understanding.close_question()
             self._emit(Interpreted(utterance.turn, "reflex", "", ""))
             self._requests.conclude(utterance.turn, "stopped", reply)
 
@@ -185,6 +185,12 @@ class Dispatch:
     def _understand(self, utterance: Utterance) -> None:
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
+        if self._resuming.paused is not None and goes_on_beside(utterance.text):
+            reply = self._told(
+                "paused_now", self._resuming.paused
+            )  # `continue, but slowly`: it keeps its pace
+            self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
+            return
         meant = self._understanding.interpret(utterance.text, self._requests.under_way)
         if meant.outcome == "unclear" and (code := _of_the_console(utterance.text)):  # no model guesses at it
             reply = self._understanding.say(code, utterance.text, command=utterance.text.split()[0])
@@ -241,12 +247,13 @@ class Dispatch:
         if meant.outcome == "plan":
             # Before it is told: telling takes longer than the way to Motion.
             self._send_plan(utterance, meant, plan_text)
+            self._understanding.close_question()
             self._emit(interpreted)
             return
         self._emit(interpreted)
         if meant.outcome == "stop":
             self._stop(utterance.text[:80])
-            self._understanding.forget_held()
+            self._understanding.close_question()
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
             if meant.obstacle:

@@ -175,10 +175,9 @@ class Understanding:
 
     @property
     def last_done(self) -> Step | None:
-        """Return the last step of the last turn that moved."""
-        done = (turn.way for turn in reversed(self._dialogue.turns) if turn.moved)
-        way = next(done, None)
-        return way[-1] if way else None
+        """Return the last step of the last turn that moved; None where that took another one back."""
+        last = next((turn for turn in reversed(self._dialogue.turns) if turn.moved), None)
+        return last.way[-1] if last is not None and last.way and last.walk is None else None
 
     def undone_programs(self, meant: Interpretation) -> Entry | None:
         """Return the ledger's entry that `meant` does again, where it was undone whole and programs are in it."""
@@ -256,9 +255,9 @@ class Understanding:
         held, offered = meant.held_plan, meant.offered_plan
         self._dialogue = replace(self._dialogue, pending=pending, held=held, offered=offered)
 
-    def forget_held(self) -> None:
-        """Let no plan wait for a `go` any more: a stop came."""
-        self._dialogue = replace(self._dialogue, held=None, offered=None)
+    def close_question(self) -> None:
+        """Let nothing that was asked wait for an answer any more: a stop came, or an order that is done."""
+        self._dialogue = replace(self._dialogue, pending="", held=None, offered=None)
 
     def note_finished(
         self,
@@ -321,7 +320,7 @@ class Understanding:
 
     def _note_end(self, record: TurnRecord, finished: Finished | None) -> None:
         """Enter a turn into the ledger; one that Motion has ended, as it was measured."""
-        self._dialogue = replace(self._dialogue, pending="", held=None, offered=None)
+        self.close_question()
         if finished is None:
             self._record(record)
             return

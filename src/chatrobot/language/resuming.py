@@ -77,6 +77,11 @@ def of_rest(text: str, language: LanguageCode, context: Context, read: Reader) -
     return proposed(meant, language) or meant
 
 
+def goes_on_beside(text: str) -> bool:
+    """Whether a text says to go on, and something beside it: `continue, but slowly`."""
+    return any(_patterns(code)[0].search(text) is not None for code in REPLY_LANGUAGES)
+
+
 def _unclear(text: str, language: LanguageCode) -> Interpretation:
     return asked_back(Unclear("unclear_motion", text[:_SHOWN]), language)
 
