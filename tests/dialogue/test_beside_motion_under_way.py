@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
 from tests.dialogue.undo_rig import UndoRig
+
+from chatrobot.dialogue.understanding import Instruction
+from chatrobot.language.interpretation import Interpretation
 
 
 @pytest.fixture
