@@ -94,3 +94,11 @@ def test_a_place_is_not_reversed_to() -> None:
         assert (
             conversation("this is the dock", "turn left", "forward 1 m", "turn right").say(said).plan is None
         )
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [("drive 1 m at half that speed", "drive 1 m at 0.15 m/s"), ("用一半的速度前进一米", "drive 1 m at 0.15 m/s")],
+)  # fmt: skip
+def test_half_the_speed_is_no_part_of_what_was_stopped(said: str, done: str) -> None:
+    assert told(stopped(*DRIVE).say(said).plan) == done

@@ -29,6 +29,8 @@ from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_release
 
 _COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
+_UNDECODED = re.compile("[\ufffd\udc80-\udcff]")
+"""What stands for a byte that is no UTF-8: on a line of the terminal, and in an argument of a command."""
 
 
 def _not_readable(text: str) -> str:
@@ -43,10 +45,6 @@ def _of_the_console(text: str) -> str:
     if is_release(text):
         return "release_by_command"
     return "command_of_console" if _COMMAND.match(text) else ""
-
-
-_UNDECODED = re.compile("[\ufffd\udc80-\udcff]")
-"""What stands for a byte that is no UTF-8: on a line of the terminal, and in an argument of a command."""
 
 
 @dataclass(eq=False)
@@ -186,9 +184,8 @@ class Dispatch:
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
         if self._resuming.paused is not None and goes_on_beside(utterance.text):
-            reply = self._told(
-                "paused_now", self._resuming.paused
-            )  # `continue, but slowly`: it keeps its pace
+            # `continue, but slowly`: Motion keeps what is paused, and goes on with it as it is.
+            reply = self._told("paused_now", self._resuming.paused)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
         meant = self._understanding.interpret(utterance.text, self._requests.under_way)

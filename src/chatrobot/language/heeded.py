@@ -84,9 +84,8 @@ def check_heeded(
     if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
         return
     if any(isinstance(a, Go) and a.place and a == b for a, b in itertools.pairwise(steps)):
-        raise Unclear(
-            "unclear_motion", " ".join(atom.text for atom in atoms)
-        )  # `to the dock and the desk twice`
+        # `to the dock and the desk twice`: it stands there already
+        raise Unclear("unclear_motion", " ".join(atom.text for atom in atoms))
     _check_clauses(atoms, steps, read)
     _check_each(atoms, steps)
     _check_no_turn(atoms, steps)
