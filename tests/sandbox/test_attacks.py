@@ -14,6 +14,7 @@ from witness import Witness
 
 from chatrobot.sandbox.limits import Layers
 from chatrobot.sandbox.process import ExitReport
+from chatrobot.sandbox.server import MOST_DESCRIPTORS
 from chatrobot.sandbox.walls import find_bubblewrap
 from chatrobot.sandbox.warm_server import WarmServer, probe
 
@@ -41,8 +42,10 @@ def server(request: pytest.FixtureRequest, witness: Witness) -> Iterator[WarmSer
     """One warm server for all attacks on a level: each of them could spoil it for the next."""
     wanted = LEVELS[request.param]
     os.environ["CHATROBOT_SECRET"] = witness.word
-    leaky, _ = os.pipe()
-    os.set_inheritable(leaky, True)
+    # A host that has many files open: what it gives to the server has numbers above those that the server may have.
+    leaky = [os.open(witness.world["writable"], os.O_RDWR) for _ in range(MOST_DESCRIPTORS)]
+    for each in leaky:
+        os.set_inheritable(each, True)
     try:
         with WarmServer([INSIDE], ["sandbox_entries"], layers=wanted) as server:
             server.start()
@@ -52,7 +55,8 @@ def server(request: pytest.FixtureRequest, witness: Witness) -> Iterator[WarmSer
             yield server
     finally:
         del os.environ["CHATROBOT_SECRET"]
-        os.close(leaky)
+        for each in leaky:
+            os.close(each)
 
 
 def strike(server: WarmServer, witness: Witness, attack: Attack) -> tuple[ExitReport, str]:

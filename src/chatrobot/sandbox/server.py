@@ -212,6 +212,13 @@ def preload(names: Iterable[str], required: Iterable[str]) -> None:
         importlib.import_module(name)
 
 
+def _lowest_number(descriptor: int) -> int:
+    """Move it below MOST_DESCRIPTORS: a host with many open files numbers it above, where no child would close it."""
+    lowest = os.dup(descriptor)
+    os.close(descriptor)
+    return lowest
+
+
 def main(descriptor: int, host_pidfd: int | None = None) -> None:
     """The whole life of the server. Says on the line what it found, then serves.
 
@@ -220,15 +227,14 @@ def main(descriptor: int, host_pidfd: int | None = None) -> None:
         host_pidfd: readable when the host is gone; None where the kernel has no such thing.
     """
     prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    descriptor = _lowest_number(descriptor)
+    host_pidfd = None if host_pidfd is None else _lowest_number(host_pidfd)
     # Few numbers to close in each child; and where memory runs out, the sandbox goes first.
     resource.setrlimit(resource.RLIMIT_NOFILE, (MOST_DESCRIPTORS, MOST_DESCRIPTORS))
     wake_as_others_do()  # Motion, which started us, has it otherwise; nobody's program may
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text(FIRST_WHEN_MEMORY_RUNS_OUT)
     host = socket.socket(fileno=descriptor)
-    for each in (descriptor, host_pidfd):
-        if each is not None:
-            os.set_inheritable(each, False)
     setup, _, _ = receive_message(host)
     layers = Layers(**setup["layers"])
     if setup["can_wrap"] and not setup["is_wrapped"] and not (layers.namespaces and can_make_namespaces()):
