@@ -14,7 +14,7 @@ from tests.motion.test_stream import wait_s
 from chatrobot.core.events import Event, Finished, Interpreted, Notice, Paused, Progress
 from chatrobot.core.events import event_from_json as read
 from chatrobot.dialogue.options import Options
-from chatrobot.motion import goal_queue
+from chatrobot.motion import pausing
 
 WAITS = "turn left 90 degrees"
 
@@ -71,8 +71,8 @@ def test_what_waited_behind_a_pause_says_why_it_is_not_done(word: str, code: str
 def test_a_pause_lapses_after_ten_minutes_and_says_so_for_what_waited_behind_it_too(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    assert goal_queue.KEPT_S == 600.0
-    monkeypatch.setattr(goal_queue, "KEPT_S", 60.0)  # thirty thousand ticks would show no more
+    assert pausing.KEPT_S == 600.0
+    monkeypatch.setattr(pausing, "KEPT_S", 60.0)  # thirty thousand ticks would show no more
     talk = paused_before()
     run_s(talk, 55.0)
     assert talk.session.is_paused

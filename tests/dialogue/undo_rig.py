@@ -120,6 +120,11 @@ class UndoRig:
         return self.robot.true_pose
 
     @property
+    def speed_mps(self) -> float:
+        """Return how fast the robot says it is."""
+        return self.session.understanding.speed_mps
+
+    @property
     def x_m(self) -> float:
         return self.pose.x_m
 

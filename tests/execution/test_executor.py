@@ -29,7 +29,7 @@ def test_a_metre_is_a_metre() -> None:
     executor = rig.run(Plan((Drive(distance_m=1.0),)))
     assert executor.outcome == "completed"
     assert rig.robot.true_pose.x_m == pytest.approx(1.0, abs=0.006)
-    assert executor.planned_m == pytest.approx(1.0)
+    assert executor.planned == (pytest.approx(1.0), 0.0)
 
 
 @pytest.mark.parametrize("seed", range(10))

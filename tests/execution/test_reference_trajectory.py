@@ -27,7 +27,7 @@ def test_late_odometry_is_compared_with_the_motion_it_belongs_to() -> None:
     reference_trajectory = ReferenceTrajectory(START)
     first = forward(START)
     reference_trajectory.begin(first, 10.0)
-    reference_trajectory.end(is_planned=True)
+    reference_trajectory.end()
     ends_s = 10.0 + first.total_s
     reference_trajectory.begin(forward(reference_trajectory.reference), ends_s + TICK_S / 2.0)
     assert reference_trajectory.began_s == ends_s, "no time is lost between two motions"
@@ -58,8 +58,8 @@ def test_a_motion_cut_short_ends_where_it_was_cut() -> None:
     segment = forward(START)
     reference_trajectory.begin(segment, 10.0)
     shorter = segment.stop_early(1.0)
-    reference_trajectory.cut_short(shorter)
-    reference_trajectory.end(is_planned=True)
+    reference_trajectory.change(shorter)
+    reference_trajectory.end()
     assert reference_trajectory.reference == shorter.end_pose
     assert reference_trajectory.reference.x_m < segment.end_pose.x_m
 
@@ -67,6 +67,6 @@ def test_a_motion_cut_short_ends_where_it_was_cut() -> None:
 def test_a_mend_moves_the_robot_and_not_the_reference() -> None:
     reference_trajectory = ReferenceTrajectory(START)
     reference_trajectory.begin(forward(Pose(0.97, 2.0, 0.0), 0.1), 10.0)
-    reference_trajectory.end(is_planned=False)
+    reference_trajectory.end()
     assert reference_trajectory.reference == START
     assert reference_trajectory.at(99.0) == START

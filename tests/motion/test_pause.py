@@ -220,7 +220,7 @@ def test_a_question_leaves_it_paused(text: str) -> None:
 @pytest.mark.parametrize("moved", [Pose(0.06, 0.0, 0.0), Pose(0.0, 0.0, math.radians(6.0))])
 def test_it_is_dropped_where_the_robot_is_moved(moved: Pose) -> None:
     from chatrobot.motion.goal import Goal
-    from chatrobot.motion.goal_queue import PausedGoal
+    from chatrobot.motion.pausing import PausedGoal
 
     stood = Pose(1.0, 2.0, 0.5)
     so_far = Finished(1, "stopped", None, Pose(), stood, 0.0, 1.0, 3.0, 0.0, remaining="drive 1 m")

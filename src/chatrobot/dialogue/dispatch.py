@@ -16,6 +16,7 @@ from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting
 from chatrobot.dialogue.resuming import Resuming
+from chatrobot.dialogue.speed_change import SpeedChange
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.interpretation import Interpretation, Placement
@@ -29,15 +30,6 @@ from chatrobot.plan.text import format_plan, parse_plan
 from chatrobot.reflex import is_release
 
 _COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
-_UNDECODED = re.compile("[\ufffd\udc80-\udcff]")
-"""What stands for a byte that is no UTF-8: on a line of the terminal, and in an argument of a command."""
-
-
-def _not_readable(text: str) -> str:
-    """The code of why nobody can tell what was said: it is cut, or holds what stands for bytes that are no text."""
-    if len(text) > MOST_CHARACTERS:
-        return "text_too_long"
-    return "text_undecoded" if _UNDECODED.search(text) else ""
 
 
 def _of_the_console(text: str) -> str:
@@ -70,15 +62,19 @@ class Dispatch:
     _emit: Callable[[Event], None]
     _stop: Callable[[str], None]
     _hears_robot_soon: Callable[[], bool]
+    _speed_change: SpeedChange = field(init=False)
     waiting_turn: int = field(default=0, init=False)
     """The turn that is read again once what is under way has ended."""
+
+    def __post_init__(self) -> None:
+        self._speed_change = SpeedChange(self._goals, self._understanding, self._requests, self._resuming)
 
     def take(self, utterance: Utterance) -> None:
         """Act on `utterance`, whose turn has come."""
         if self._utterances.is_void(utterance):
             self._drop(utterance)
             return
-        unread = _not_readable(utterance.text) if utterance.kind == "text" else ""
+        unread = utterance.why_unreadable
         if unread:
             reply = self._understanding.say(unread, utterance.text, limit=MOST_CHARACTERS)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
@@ -180,11 +176,29 @@ class Dispatch:
         else:
             self._programs.begin(utterance.turn, utterance.text, is_asked_for=True, name=utterance.about)
 
+    def _changes_speed(self, utterance: Utterance) -> bool:
+        """Whether `utterance` changes the speed of what is under way: then that is done."""
+        meant = self._speed_change.answer(utterance.text)
+        if meant is None:
+            return False
+        if (
+            meant.outcome == "answered"
+            and self._resuming.paused is not None
+            and goes_on_beside(utterance.text)
+        ):
+            self._go_on(utterance)
+        else:
+            self._act_on(utterance, meant)
+        return True
+
     def _understand(self, utterance: Utterance) -> None:
+        if self._requests.is_any_with_motion and self._changes_speed(utterance):
+            return
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
-        if self._resuming.paused is not None and goes_on_beside(utterance.text):
-            # `continue, but slowly`: Motion keeps what is paused, and goes on with it as it is.
+        if self._resuming.paused is not None and goes_on_beside(
+            utterance.text
+        ):  # Motion keeps what is paused
             reply = self._told("paused_now", self._resuming.paused)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, Literal
 
 from chatrobot.core.event import Proposal
@@ -13,6 +14,8 @@ from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.link.motion_link import MotionLink
+from chatrobot.plan.speed_scaling import SpeedScaling
+from chatrobot.plan.steps import Plan
 
 
 class GoalClient:
@@ -33,6 +36,10 @@ class GoalClient:
     def resume(self, turn: int) -> None:
         """Have Motion go on with what is paused."""
         self._link.send("resume", turn)
+
+    def rescale(self, turn: int, scaling: SpeedScaling) -> None:
+        """Have Motion go on at another speed with a plan that it has."""
+        self._link.send("rescale", turn, **vars(scaling))
 
     def plan(
         self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
@@ -107,6 +114,11 @@ class RequestLog:
     def track(self, turn: int, text: str, meant: Interpretation) -> None:
         """Note that Motion has that turn; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
+
+    def replace_plan(self, turn: int, plan: Plan) -> None:
+        """Note that what Motion has of that turn has become another plan."""
+        instruction = self._with_motion[turn]
+        self._with_motion[turn] = instruction._replace(meant=replace(instruction.meant, plan=plan))
 
     def hear(self, event: Event) -> None:
         """Note what rehearsal leaves out of a turn: its result says so, for whoever sees no more than that."""

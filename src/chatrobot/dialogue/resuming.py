@@ -52,17 +52,27 @@ class UnderWay:
         self._began_at = self._pose = pose
         self._turned_rad = 0.0
 
+    def step_of(self, turn: int) -> int:
+        """Return the number of the step that runs, repeats counted; 0 where that turn does not."""
+        return self._step if turn == self._turn else 0
+
+    def left(self, turn: int, steps: Sequence[Step]) -> list[Step]:
+        """Return what is left of the step that runs, and those after it; all where that is not known."""
+        flat = list(expanded(steps))
+        number = self.step_of(turn)
+        if not 0 < number <= len(flat):
+            return list(steps)
+        return [step for step in (self._left(flat[number - 1]), *flat[number:]) if step is not None]
+
     def told(self, turn: int, steps: Sequence[Step], language: str, speed_mps: float) -> str:
         """Return the step that runs, what is left of it and comes after it; empty where that is not known."""
         flat = list(expanded(steps))
-        if turn != self._turn or not 0 < self._step <= len(flat):
+        number = self.step_of(turn)
+        if not 0 < number <= len(flat):
             return ""
-        now, after = flat[self._step - 1], flat[self._step :]
-        left = [step for step in (self._left(now), *after) if step is not None]
+        left, now = self.left(turn, steps), describe_steps(flat[number - 1 : number], language)
         plan = describe_steps(left, language) if left else say(language, "nothing_left")
-        return say(
-            language, "answer_under_way", now=describe_steps([now], language), plan=plan, speed_mps=speed_mps
-        )
+        return say(language, "answer_under_way", now=now, plan=plan, speed_mps=speed_mps)
 
     def _left(self, step: Step) -> Step | None:
         if isinstance(step, Drive) and step.distance_m is not None:

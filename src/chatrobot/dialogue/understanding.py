@@ -57,7 +57,7 @@ class Understanding:
     def __init__(self, profile: RobotProfile, world: World, folder: Path | None, frame: str = "") -> None:
         self.is_simulated = bool(frame)
         """Whether things can be put around the robot and taken away."""
-        self._profile, self._interpreter = profile, OfflineInterpreter(profile)
+        self.profile, self._interpreter = profile, OfflineInterpreter(profile)
         self._dialogue = Dialogue()
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self.world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
@@ -186,9 +186,9 @@ class Understanding:
         entry = self._dialogue.ledger.redoes()
         return entry if entry is not None and entry.programs and not entry.back else None
 
-    def amended(self, plan: Plan, said: str) -> Plan | None:
-        """Return the plan with what `said` changes of it; None where that says anything else."""
-        return self._interpreter.amended(plan, said, self._context(self._dialogue))
+    def amended(self, plan: Plan, said: str, *, is_agreed: bool = True) -> Plan | None:
+        """Return the plan with what `said` changes of it, beside a yes if `is_agreed`; None for anything else."""
+        return self._interpreter.amended(plan, said, self._context(self._dialogue), is_agreed=is_agreed)
 
     @property
     def limit_mps(self) -> float | None:
@@ -198,12 +198,12 @@ class Understanding:
 
     def within_limit(self, step: Step) -> Step:
         """Return the step no faster than the person allows."""
-        return step if self.limit_mps is None else kept_within(step, self.limit_mps, self._profile)
+        return step if self.limit_mps is None else kept_within(step, self.limit_mps, self.profile)
 
     def accept(self, plan: Plan) -> Interpretation:
         """Return the meaning of a plan as it is: there is nothing to understand, but it keeps to the speed limit."""
         meant = Interpretation("plan", "", self.language, plan)
-        return meant if self.limit_mps is None else within_limit(meant, self.limit_mps, self._profile)
+        return meant if self.limit_mps is None else within_limit(meant, self.limit_mps, self.profile)
 
     def say(self, code: str, text: str, **values: float | str) -> str:
         """Return a phrase in the language of `text`, what the person said."""

@@ -6,6 +6,7 @@ A stop makes void what was said before it. Most texts wait for what runs, is tho
 from __future__ import annotations
 
 import math
+import re
 import threading
 import time
 from collections import deque
@@ -25,7 +26,7 @@ from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.program_request import read_request
-from chatrobot.link.envelope import QUEUE_LIMIT, STOP_COMMAND, STOP_TOPIC
+from chatrobot.link.envelope import MOST_CHARACTERS, QUEUE_LIMIT, STOP_COMMAND, STOP_TOPIC
 from chatrobot.plan.steps import Remember, Step
 
 Kind = Literal[
@@ -34,6 +35,8 @@ Kind = Literal[
 ]  # fmt: skip
 INSTRUCTIONS: tuple[Kind, ...] = ("text", "plan", "edited_plan", "program", "draft", "source")
 """What may have to wait, and what a stop clears; the others are answered at once."""
+_UNDECODED = re.compile("[\ufffd\udc80-\udcff]")
+"""What stands for a byte that is no UTF-8: on a line of the terminal, and in an argument of a command."""
 _OUTSIDE_STOPS = (STOP_COMMAND, STOP_TOPIC)
 
 
@@ -52,6 +55,13 @@ class Utterance:
     def is_instruction(self) -> bool:
         """True where it may have to wait, and a stop clears it."""
         return self.kind in INSTRUCTIONS
+
+    @property
+    def why_unreadable(self) -> str:
+        """Return the code of why nobody can tell what a text says (it is cut, or has bytes that are none), or ""."""
+        if self.kind != "text" or len(self.text) > MOST_CHARACTERS:
+            return "text_too_long" if self.kind == "text" else ""
+        return "text_undecoded" if _UNDECODED.search(self.text) else ""
 
 
 class _Hold(NamedTuple):

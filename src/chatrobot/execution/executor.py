@@ -18,6 +18,7 @@ from chatrobot.execution.sensors import Sensors, is_seen_standing, patience_s, s
 from chatrobot.execution.tracking import (
     AT_THE_END,
     BETWEEN_STEPS,
+    LATE_BY_S,
     TRIES,
     Tolerance,
     corrected,
@@ -25,10 +26,12 @@ from chatrobot.execution.tracking import (
     must_brake,
     not_arrived,
     tracking_fault,
+    unless_late,
     without_reverse,
 )
 from chatrobot.plan.context import Impossible
 from chatrobot.plan.lowering import NotYet, Walk
+from chatrobot.plan.speed_scaling import SpeedScaling
 from chatrobot.plan.split import Reached
 from chatrobot.plan.trajectory import CoreMotion, Emit, Pause, Segment
 from chatrobot.robots.profile import RobotProfile
@@ -38,12 +41,6 @@ UNSEEN_S = 0.1
 
 BARRED_S = 3.0
 """Somebody may walk past; after this long the way is barred and the plan ends."""
-
-LATE_BY_S = (0.15, 0.3, 0.45, 0.6)
-"""How long a bad Wi-Fi may keep our velocities and the robot's news together."""
-
-LAGS = frozenset({"does_not_move", "does_not_follow"})
-"""Faults that a robot may show that does what it is told, only late; going another way is none of them."""
 
 RAMP_RULES = frozenset({"", "speed", "acceleration"})
 """What the governor does to any motion: no reason to wait."""
@@ -64,15 +61,12 @@ class Executor:
         self.outcome: Outcome = "completed"
         self.step = 0
         self.steps = 0
-        self.planned_m = 0.0
-        self.planned_turn_rad = 0.0
         self._reference = ReferenceTrajectory(Pose())
         self._tally = Tally()
         self._pause_until_s: float | None = None
         self._pause_s = 0.0
         self._settle_since_s: float | None = None
         self._corrections_left = TRIES
-        self._is_correcting = False
         self._has_stood = False
         """Whether it has been seen standing where the plan ends: from then on corrections wait for that each time."""
         self._timed: Twist | None = None
@@ -97,12 +91,23 @@ class Executor:
         """Take in that the walk has become longer: `duration_s` in all."""
         self._duration_s = duration_s
 
+    def rescale(self, scaling: SpeedScaling, now_s: float) -> None:
+        """Go on at another speed, on the same path: at once, but for a motion that brakes already."""
+        self._reference.rescale(scaling, now_s, self._profile.limits)
+        factor = scaling.linear_factor if scaling.linear_factor != 1.0 else scaling.angular_factor
+        self._duration_s += max(0.0, self._started_s + self._duration_s - now_s) * (1.0 / factor - 1.0)
+
     # --- what Motion reads ---
 
     @property
     def steps_done(self) -> int:
         """Return how many steps are finished, repeats counted each time."""
         return self.steps if self.is_done and self.reason is None else max(0, self.step - 1)
+
+    @property
+    def planned(self) -> tuple[float, float]:
+        """Return metres and radians, counter-clockwise positive, of the plan up to the motion under way."""
+        return self._reference.planned
 
     @property
     def reached(self) -> Reached | None:
@@ -114,11 +119,8 @@ class Executor:
         """Return how far it is, by the rehearsed duration."""
         share = (now_s - self._started_s) / self._duration_s if self._duration_s > 0.0 else 1.0
         estimate = self._sensors.estimate
-        pose, twist = (
-            (estimate.pose, estimate.twist)
-            if estimate is not None
-            else (self._reference.reference, ZERO_TWIST)
-        )
+        pose = estimate.pose if estimate is not None else self._reference.reference
+        twist = estimate.twist if estimate is not None else ZERO_TWIST
         return Progress(turn, self.step, self.steps, max(0.0, min(1.0, share)), pose, twist)
 
     def note(self, rule: str, reason: Reason | None, sent: Twist, now_s: float) -> None:
@@ -203,14 +205,14 @@ class Executor:
             self._pause_s = motion.duration_s
             self._pause_until_s = self._reference.free_from_s(now_s) + motion.duration_s
         elif motion is not None:
-            self.planned_m += motion.twist.speed_mps * motion.hold_s
-            self.planned_turn_rad += motion.twist.wz_radps * motion.hold_s
+            if self._reference.scaling is not None:
+                motion = self._reference.scaling.motion(motion, self._profile.limits)
             self._begin_segment(Segment(motion, self._reference.reference), now_s)
         else:
             self._tally.end()
 
-    def _begin_segment(self, segment: Segment, now_s: float) -> None:
-        self._reference.begin(segment, now_s)
+    def _begin_segment(self, segment: Segment, now_s: float, *, is_correcting: bool = False) -> None:
+        self._reference.begin(segment, now_s, is_correcting=is_correcting)
         self._first_tick = True
         estimate = self._sensors.estimate
         pose = estimate.pose if estimate is not None else segment.start
@@ -241,7 +243,7 @@ class Executor:
 
     def _tracking_fault(self, segment: Segment, reference: Pose, estimate: Estimate) -> Reason | None:
         begin, wheel_yaw_rad = self._begin
-        if self._is_correcting or estimate.stamp_s < self._reference.began_s:
+        if self._reference.is_correcting or estimate.stamp_s < self._reference.began_s:
             return None
         if self._barred_since_s is not None:
             return None  # it was halted at once, and rolls on as far as it takes to brake
@@ -252,12 +254,8 @@ class Executor:
             moved = reference.relative_to(segment.start)
             return tracking_fault(begin, begin.compose(moved), estimate.pose, wheel_turn_rad)
 
-        found = fault(reference)
-        if found is None or found.code not in LAGS:
-            return found
-        # What we ask and what we hear of it may take their time: was the reference there a moment ago?
         before_s = (max(self._reference.began_s, estimate.stamp_s - late_s) for late_s in LATE_BY_S)
-        return None if any(fault(self._reference.at(at_s)) is None for at_s in before_s) else found
+        return unless_late(fault, reference, map(self._reference.at, before_s))
 
     def _cut_short(self, segment: Segment, t_s: float) -> Segment:
         """Brake where the plan's condition holds, or where a controlled stop was asked for."""
@@ -266,24 +264,19 @@ class Executor:
         shorter = segment.stop_early(t_s)
         if shorter.total_s >= segment.total_s:
             return segment
-        if not self._is_correcting:
-            lost_s = segment.ramp.hold_s - shorter.ramp.hold_s
-            self.planned_m -= segment.motion.twist.speed_mps * lost_s
-            self.planned_turn_rad -= segment.motion.twist.wz_radps * lost_s
-        self._reference.cut_short(shorter)
+        self._reference.change(shorter)
         return shorter
 
     def _end_segment(self, segment: Segment, now_s: float) -> Twist | None:
-        self._reference.end(is_planned=not self._is_correcting)
-        if not self._is_correcting:
+        self._reference.end()
+        if not self._reference.is_correcting:
             is_cut_short = segment.ramp.hold_s < segment.motion.hold_s
             if self._ending is None or not is_cut_short:
-                self._tally.end(segment.ramp.hold_s)
+                self._tally.end(segment.ramp.hold_s / segment.motion.hold_s)
             self._timed = segment.motion.twist if segment.motion.is_timed else None
             self._walk.ended_at(self._reference.reference)
             self._corrections_left = TRIES
             self._has_stood = False
-        self._is_correcting = False
         if self._ending is None and not self._has_stood and self._correct(BETWEEN_STEPS, now_s):
             return ZERO_TWIST
         return None
@@ -325,8 +318,7 @@ class Executor:
         if motion is None:
             return False
         self._corrections_left -= 1
-        self._is_correcting = True
-        self._begin_segment(Segment(motion, estimate.pose), now_s)
+        self._begin_segment(Segment(motion, estimate.pose), now_s, is_correcting=True)
         return True
 
     def _rest(self, estimate: Estimate) -> Pose:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from chatrobot.core.clock import TICK_S
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.plan.lowering import PlannedMotion
+from chatrobot.plan.speed_scaling import SpeedScaling
 from chatrobot.plan.split import Reached
 from chatrobot.plan.trajectory import Pause, RampedTwist, Segment
+from chatrobot.robots.profile import Limits
 
 
 class ReferenceTrajectory:
@@ -20,8 +22,13 @@ class ReferenceTrajectory:
         self.reference = reference
         """Where the robot should be between two motions."""
         self.segment: Segment | None = None
+        self.scaling: SpeedScaling | None = None
+        """How much faster or slower than planned; None as planned."""
         self.began_s = 0.0
         """When the motion under way began."""
+        self.is_correcting = False
+        """Whether the motion under way, or the last one, leads back to the reference, and is no part of the plan."""
+        self._done_m = self._done_rad = 0.0
         self._last: tuple[Segment, float] | None = None
 
     @property
@@ -29,14 +36,28 @@ class ReferenceTrajectory:
         """Return True where a motion has been driven to its end."""
         return self._last is not None
 
-    def begin(self, segment: Segment, now_s: float) -> None:
+    @property
+    def planned(self) -> tuple[float, float]:
+        """Return metres and radians, counter-clockwise positive, of all planned motions up to the one under way."""
+        segment = None if self.is_correcting else self.segment
+        under_way_m, under_way_rad = _extent(segment) if segment is not None else (0.0, 0.0)
+        return self._done_m + under_way_m, self._done_rad + under_way_rad
+
+    def begin(self, segment: Segment, now_s: float, *, is_correcting: bool = False) -> None:
         """Set out on `segment`, right from the end of the last motion."""
+        self.is_correcting = is_correcting
         self.began_s = self.free_from_s(now_s)
         self.segment = segment
 
-    def cut_short(self, segment: Segment) -> None:
-        """End the motion under way earlier: from here on it is `segment`."""
+    def change(self, segment: Segment) -> None:
+        """Go on otherwise: from here on the motion under way is `segment`, which was the same until now."""
         self.segment = segment
+
+    def rescale(self, scaling: SpeedScaling, now_s: float, limits: Limits) -> None:
+        """Be faster or slower with what comes, and from `now_s` on with the motion under way."""
+        self.scaling = scaling if self.scaling is None else self.scaling.times(scaling)
+        if self.segment is not None and not self.is_correcting:
+            self.segment = scaling.segment(self.segment, now_s - self.began_s, limits)
 
     def wait(self, duration_s: float, now_s: float, seen: Pose | None) -> None:
         """Wait for a robot that something slows; not where it is `seen` ahead, for it rolled on until it had braked."""
@@ -45,13 +66,14 @@ class ReferenceTrajectory:
             reached_s = self.segment.ramp.time_at(self.segment.progress_at(seen))
             self.began_s = min(self.began_s, now_s - reached_s)
 
-    def end(self, *, is_planned: bool) -> None:
-        """End the motion under way; `is_planned`: its ideal end is where what follows begins."""
-        segment, self.segment = self.segment, None
+    def end(self) -> None:
+        """End the motion under way: where it would ideally end, what follows begins, unless it was a correction."""
+        planned, segment = self.planned, self.segment
         assert segment is not None
         self._last = (segment, self.began_s)
-        if is_planned:
+        if not self.is_correcting:
             self.reference = segment.end_pose
+        (self._done_m, self._done_rad), self.segment = planned, None
 
     def free_from_s(self, now_s: float) -> float:
         """Return when the last motion ended, if that was within this tick: so that no time is lost between steps."""
@@ -69,6 +91,11 @@ class ReferenceTrajectory:
             segment, began_s = self._last
             return segment.at(stamp_s - began_s)[0] if stamp_s - began_s < segment.total_s else self.reference
         return self.segment.start if self.segment is not None else self.reference
+
+
+def _extent(segment: Segment) -> tuple[float, float]:
+    twist, hold_s = segment.motion.twist, segment.ramp.hold_s
+    return twist.speed_mps * hold_s, twist.wz_radps * hold_s
 
 
 class Tally:
@@ -100,14 +127,14 @@ class Tally:
         """Note how long the pause under way has lasted."""
         self._waited_s = waited_s
 
-    def end(self, hold_s: float | None = None) -> None:
-        """End the motion under way, after so many seconds of its full twist."""
+    def end(self, share: float | None = None) -> None:
+        """End the motion under way, after that share of it, 0 to 1, where something may have ended it early."""
         item = self._item
         if item is None:
             return
         motion = item.motion
-        if hold_s is not None and isinstance(motion, RampedTwist) and motion.until is not None:
-            self._early[item.number] = hold_s / motion.hold_s
+        if share is not None and isinstance(motion, RampedTwist) and motion.until is not None:
+            self._early[item.number] = share
         self._motions_done += 1
         if item.last:
             self._steps_done = item.number

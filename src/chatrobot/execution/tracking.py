@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from chatrobot.core.clock import TICK_S
@@ -111,6 +112,23 @@ def tracking_fault(begin: Pose, reference: Pose, seen: Pose, wheel_turn_rad: flo
     if ahead < -0.002 or asked_rad * seen_rad < -0.01:
         return Reason("moves_the_other_way", values)
     return Reason("does_not_follow", values)
+
+
+LATE_BY_S = (0.15, 0.3, 0.45, 0.6)
+"""How long a bad Wi-Fi may keep our velocities and the robot's news together."""
+
+LAGS = frozenset({"does_not_move", "does_not_follow"})
+"""Faults that a robot may show that does what it is told, only late; going another way is none of them."""
+
+
+def unless_late(
+    fault: Callable[[Pose], Reason | None], reference: Pose, earlier: Iterable[Pose]
+) -> Reason | None:
+    """Return the fault of the reference; None where one of the `earlier` references shows none: it is only late."""
+    found = fault(reference)
+    if found is None or found.code not in LAGS:
+        return found
+    return None if any(fault(before) is None for before in earlier) else found
 
 
 def _degrees(angle_rad: float) -> float:

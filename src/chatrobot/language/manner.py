@@ -60,6 +60,9 @@ class Pace:
         )
 
 
+_COMPARED = re.compile("slower|faster|quicker|慢|快")
+
+
 def _standing(frame: Frame, chosen: float | None, usual: float) -> float | None:
     """The speed that was chosen from now on; `at normal speed` is the profile's all the same."""
     return usual if chosen and frame.pace == "default" else chosen
@@ -74,7 +77,12 @@ def _positive(frame: Frame, name: str) -> float:
 
 def _relative(frame: Frame, default: float, before: float, maximum: float) -> float | None:
     if "percent" in frame.q:
-        return _positive(frame, "percent") * maximum
+        share = _positive(frame, "percent")
+        if frame.pace not in ("slow", "fast") or not _COMPARED.search(frame.text):
+            return share * maximum
+        if frame.pace == "slow" and share >= 1.0:
+            raise Unclear("bad_number", frame.q["percent"].text)
+        return before * (1.0 - share if frame.pace == "slow" else 1.0 + share)  # 20 % slower
     fold = frame.q.get("fold")
     if fold is not None and is_chinese(fold.text) and not re.search("速|快|平|默|正|车|原|半", fold.text):
         raise Unclear("unclear_motion", frame.text)  # twice what?

@@ -154,12 +154,10 @@ def _way(direction_rad: float) -> str:
 def _drive(step: Drive, spoken: Callable[..., str]) -> str:
     way = spoken(_way(step.direction_rad))
     if step.distance_m is not None:
-        text = spoken("step_drive", way=way, m=number(step.distance_m))
-    elif step.duration_s is not None:
-        text = spoken("step_drive_time", way=way, s=number(step.duration_s))
-    else:
-        text = spoken("step_drive_until", way=way, m=number(step.until.distance_m) if step.until else "")
-    return text + (spoken("step_speed", mps=number(step.speed_mps)) if step.speed_mps else "")
+        return spoken("step_drive", way=way, m=number(step.distance_m))
+    if step.duration_s is not None:
+        return spoken("step_drive_time", way=way, s=number(step.duration_s))
+    return spoken("step_drive_until", way=way, m=number(step.until.distance_m) if step.until else "")
 
 
 def _go(step: Go, spoken: Callable[..., str]) -> str:
@@ -172,6 +170,16 @@ def _go(step: Go, spoken: Callable[..., str]) -> str:
 
 
 def _step(step: Step, language: str) -> str:
+    speed_mps, rate_radps = getattr(step, "speed_mps", None), getattr(step, "rate_radps", None)
+    text = _step_at_any_speed(step, language)
+    if speed_mps is not None:
+        return text + say(language, "step_speed", mps=number(speed_mps))
+    if rate_radps is not None:
+        return text + say(language, "step_rate", dps=number(math.degrees(rate_radps), ANGLE_PLACES))
+    return text
+
+
+def _step_at_any_speed(step: Step, language: str) -> str:
     def spoken(code: str, **values: Value) -> str:
         return say(language, code, **values)
 

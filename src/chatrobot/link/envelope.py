@@ -12,7 +12,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
 from chatrobot.robots.profile import read_limit
 
-PROTOCOL = 2
+PROTOCOL = 3
 """What both halves have to agree on, in the greeting of each. Another number where one half could misunderstand the
 other; a stop is understood by all of them. Halves that say none are of release 0.1, and have number 1."""
 
@@ -35,6 +35,8 @@ Word = Literal[
     "approve",  # {"yes": bool, "edited": bool} answers a Rehearsed event that needs approval; edited: by another plan
     "stop",  # {"why": …, "keep": bool}; makes void what belongs to this turn and those before. keep: a pause
     "resume",  # {}: go on with the plan of this turn, which was paused
+    # {"linear_factor", "angular_factor"}: go on with the plan of this turn so many times as fast
+    "rescale",
     "emergency_stop",
     "release",
     "limit",  # {"max_distance_m", "max_time_s": number or "none"}; changes the motion budget, empty: asks for it
@@ -58,6 +60,8 @@ QUEUE_LIMIT = 10
 MOST_CHARACTERS = 65_536
 """Of one text; a reader of lines may have cut what is longer, so nothing of it is done."""
 
+MOST_TIMES_AS_FAST = 100.0
+"""Of a plan under way; its limits hold anyway, and this keeps infinities out of the arithmetic."""
 MAX_CODE_CHARS = 60_000
 """Of a program in an envelope: a thousand lines and more, and it still fits into one packet."""
 _MAX_REMAPS = 8
@@ -82,6 +86,10 @@ _MOST_ASKED = 1e6
 def _is_speed(value: object) -> bool:
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     return is_number and -_MOST_ASKED <= value <= _MOST_ASKED  # type: ignore[operator]
+
+
+def _is_factor(value: object) -> bool:
+    return _is_speed(value) and 0.0 < float(str(value)) <= MOST_TIMES_AS_FAST
 
 
 def _is_limit(value: object) -> bool:
@@ -162,6 +170,7 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
     "approve": {"yes": _is_flag, "edited": _is_flag},
     "stop": {"why": _text(), "keep": _is_flag},
     "resume": {},
+    "rescale": {"linear_factor": _is_factor, "angular_factor": _is_factor},
     "emergency_stop": {"why": _text()},
     "release": {},
     "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},

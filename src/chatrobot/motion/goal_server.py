@@ -15,16 +15,9 @@ from chatrobot.link.envelope import Envelope
 from chatrobot.link.motion_link import Approval
 from chatrobot.motion.budgets import Budgets
 from chatrobot.motion.goal import Goal, handed_over
-from chatrobot.motion.goal_queue import (
-    GoalQueue,
-    Inbox,
-    OutcomeQueue,
-    PausedGoal,
-    Pausing,
-    is_foreign,
-    why_not_kept,
-)
+from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue
 from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.pausing import PausedGoal, Pausing, is_foreign, why_not_kept
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.goal import ProgramGoal

@@ -14,6 +14,7 @@ from chatrobot.governor.governor import LATE_BEAT, Verdict
 from chatrobot.motion.budgets import Meter
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.plan.speed_scaling import SpeedScaling
 from chatrobot.plan.split import split
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan
@@ -170,6 +171,7 @@ class GoalExecution:
         self._robot = robot
         self._motion = GovernedMotion(goal, robot, now_s)
         self._told: set[tuple[int, str]] = set()
+        self._scaling = SpeedScaling()
         self._executor = Executor(robot.profile, robot.sensors, emit)
         self._executor.start(goal.turn, goal.stream.walk, goal.stream.duration_s, now_s)
 
@@ -204,6 +206,11 @@ class GoalExecution:
         """Expect so long a duration in all: the plan has become longer."""
         self._executor.expect(duration_s)
 
+    def rescale(self, scaling: SpeedScaling, now_s: float) -> None:
+        """Go on at another speed; what is left at a stop says so."""
+        self._executor.rescale(scaling, now_s)
+        self._scaling = self._scaling.times(scaling)
+
     def ramp_down(self, why: Reason) -> None:
         """Stop at the deceleration of the profile."""
         self._executor.ramp_down(why)
@@ -221,12 +228,12 @@ class GoalExecution:
         """Return its end, as odometry measured it."""
         executed, remaining = self._parts()
         is_whole = outcome == "completed"  # conditions that came true may have made it shorter than rehearsed
-        planned_m = self._executor.planned_m
+        planned_m, planned_rad = self._executor.planned
         return self._motion.finished(
             outcome,
             reason,
             planned_m=planned_m if is_whole else max(planned_m, self.goal.length_m),
-            planned_turn_rad=self._executor.planned_turn_rad,
+            planned_turn_rad=planned_rad,
             steps_done=self._executor.steps_done,
             steps=self._executor.steps,
             executed=executed,
@@ -241,7 +248,8 @@ class GoalExecution:
             return "", ""
         context = replace(planned.rehearsal.context, pose=self._robot.pose)
         parts = split(self.goal.stream.accepted, reached, context)
-        return _text(parts.executed), _text(parts.remaining)
+        left = parts.remaining
+        return _text(parts.executed), _text(left and self._scaling.plan(left, self._robot.profile))
 
     def _tell(self, verdict: Verdict) -> None:
         """Say once a step and rule that something was limited."""

@@ -19,10 +19,11 @@ from chatrobot.governor.lease import RELEASERS
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import Budgets, open_loop_notice
 from chatrobot.motion.clients import Clients
-from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue, Pausing
+from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.obstacles import Obstacles
+from chatrobot.motion.pausing import Pausing
 from chatrobot.motion.plan_executor import PlanExecutor
 from chatrobot.motion.planner import Planner
 from chatrobot.motion.programs.host import ProgramHost
@@ -30,6 +31,7 @@ from chatrobot.motion.relayed_velocities import RelayedVelocities
 from chatrobot.motion.safety.stop import KEEPING, PAUSED, StopConfirmation, Stops, WireTransport
 from chatrobot.motion.safety.watchdog import GuardLink, Interlock, StallDetector
 from chatrobot.motion.telemetry import LimitPublisher, ScanPublisher, TelemetryPublisher, sectors_m
+from chatrobot.plan.speed_scaling import SpeedScaling
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.wire.wire import Wire
 
@@ -278,6 +280,10 @@ class Motion:
         elif envelope.word == "resume":
             self._pausing.resume(envelope)
             self._begin_next(now_s)
+        elif envelope.word == "rescale":
+            scaling = SpeedScaling(**envelope.payload)
+            self._executor.rescale(envelope, scaling)
+            self._pausing.rescale(envelope, scaling)
         elif envelope.word == "approve":
             self.goals.approve(envelope)
         elif envelope.word == "release":

@@ -14,6 +14,7 @@ from chatrobot.core.events import Event, Finished, Outcome, Progress, Started
 from chatrobot.core.reason import Reason
 from chatrobot.execution.sensors import is_seen_moving
 from chatrobot.execution.tracking import NOT_ARRIVED
+from chatrobot.link.envelope import Envelope
 from chatrobot.motion.budgets import REACHED
 from chatrobot.motion.goal import Goal
 from chatrobot.motion.goal_queue import Inbox, OutcomeQueue
@@ -25,6 +26,7 @@ from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.programs.host import ProgramHost
 from chatrobot.motion.safety.stop import Stops
 from chatrobot.motion.safety.watchdog import Interlock
+from chatrobot.plan.speed_scaling import SpeedScaling
 
 FAILURES = frozenset(
     {"guard_lost", "bumped", "motion_froze", "motion_late", "beats_missed", "beat_late", "wire_gone"}
@@ -134,6 +136,13 @@ class PlanExecutor:
         """Expect so long a duration in all: the plan under way has become longer."""
         if isinstance(self._run, GoalExecution):
             self._run.expect(duration_s)
+
+    def rescale(self, envelope: Envelope, scaling: SpeedScaling) -> None:
+        """Go on at another speed with the plan of that source and turn, where it is under way."""
+        run = self._run
+        about = (envelope.turn, envelope.lease)
+        if isinstance(run, GoalExecution) and (run.goal.turn, run.goal.lease) == about:
+            run.rescale(scaling, self._clock.now_s())
 
     def progress(self, now_s: float) -> Progress | None:
         """Return how far it is; None where nothing is under way."""

@@ -12,9 +12,9 @@ from chatrobot.core.wiring import CMD_VEL_INPUT_TOPIC, JOYSTICK_TOPIC
 from chatrobot.governor.governor import Verdict
 from chatrobot.link.envelope import Envelope
 from chatrobot.motion.clients import Clients
-from chatrobot.motion.goal_queue import Pausing
 from chatrobot.motion.goal_server import GoalServer
 from chatrobot.motion.governed_robot import GovernedRobot
+from chatrobot.motion.pausing import Pausing
 from chatrobot.motion.safety.stop import StopConfirmation, Stops
 from chatrobot.motion.safety.watchdog import Interlock
 from chatrobot.motion.velocity_input import STICK_LET_GO_S, Stick, VelocityInput

@@ -9,6 +9,7 @@ area: Lynch and Park, Modern Robotics (2017), section 9.2.2.2.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Union
 
@@ -129,6 +130,12 @@ class Ramp:
         self.up_end_s = self.peak / slope_per_s
         self.down_start_s = hold_s if self.peak == 1.0 else self.up_end_s
         self.total_s = self.down_start_s + self.up_end_s
+
+    @property
+    def corners(self) -> Sequence[tuple[float, float]]:
+        """Return time and rate, 1/s, wherever the slope of the rate changes."""
+        peak = self.peak
+        return (0.0, 0.0), (self.up_end_s, peak), (self.down_start_s, peak), (self.total_s, 0.0)
 
     def at(self, t_s: float) -> tuple[float, float]:
         """Return (s, ds/dt) at `t_s` after the start; before it (0, 0), after the end (hold_s, 0)."""

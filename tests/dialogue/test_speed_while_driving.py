@@ -1,0 +1,151 @@
+"""“Slower”, said while the robot drives, changes the speed of what it does, at once and on the same path."""
+
+from __future__ import annotations
+
+import pytest
+from tests.dialogue.undo_rig import UndoRig
+
+from chatrobot.core.events import Paused, Started
+from chatrobot.dialogue.options import Options
+
+ASKING = Options(while_moving="replace")
+
+
+@pytest.fixture
+def rig() -> UndoRig:
+    return UndoRig(options=ASKING)
+
+
+def driving(rig: UndoRig, order: str = "forward 3 m") -> int:
+    """Say an order; return its turn once it drives at its speed."""
+    turn = rig.session.say(order)
+    rig.live(2.0)
+    assert rig.session.is_moving
+    return turn
+
+
+@pytest.mark.parametrize(
+    ("said", "speed_mps"),
+    [
+        ("slower", 0.15), ("slow down", 0.15), ("not so fast", 0.15), ("you're going way too fast!", 0.15),
+        ("can you go slower?", 0.15), ("make it slower", 0.15), ("half speed", 0.15), ("20 % slower", 0.24),
+        ("at 0.1 m/s", 0.1), ("go at 0.1 m/s", 0.1), ("slow down to 10 cm/s", 0.1), ("faster", 0.51),
+        ("speed up", 0.51), ("too slow", 0.51), ("twice as fast", 0.6), ("20% faster", 0.36),
+        ("慢一点", 0.15), ("你开得太快了", 0.15), ("减速到0.1米每秒", 0.1), ("能不能开快点？", 0.51),
+        ("langsamer", 0.15), ("nicht so schnell", 0.15), ("zu schnell", 0.15), ("geh vom Gas", 0.15),
+        ("mit 0,1 m/s", 0.1), ("kannst du langsamer fahren?", 0.15), ("viel zu langsam", 0.51),
+    ],
+)  # fmt: skip
+def test_the_speed_changes_under_way_and_the_end_stays(rig: UndoRig, said: str, speed_mps: float) -> None:
+    turn = driving(rig)
+    about = rig.session.say(said)
+    rig.live(1.5)
+    assert rig.session.results[about].outcome == "answered"
+    assert rig.speed_mps == pytest.approx(speed_mps, abs=0.01)
+    rig.live(40.0)
+    assert rig.session.results[turn].outcome == "completed"
+    assert rig.x_m == pytest.approx(3.0, abs=0.02)
+    assert sum(isinstance(event, Started) for event in rig.events) == 1, "it never set out anew"
+
+
+@pytest.mark.parametrize("said", ["is it fast?", "how fast are you?", "was it slower before?", "这样快吗？"])
+def test_a_question_changes_no_speed(rig: UndoRig, said: str) -> None:
+    driving(rig)
+    rig.session.say(said)
+    rig.live(1.5)
+    assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+def test_each_change_is_of_the_speed_before(rig: UndoRig) -> None:
+    driving(rig)
+    for said, speed_mps in (
+        ("slower", 0.15),
+        ("slower", 0.075),
+        ("faster", 0.1275),
+        ("twice as fast", 0.255),
+    ):
+        rig.session.say(said)
+        rig.live(1.5)
+        assert rig.speed_mps == pytest.approx(speed_mps, abs=0.01)
+
+
+def test_the_steps_that_follow_have_the_other_speed_too(rig: UndoRig) -> None:
+    turn = driving(rig, "drive 1 m, then curve left with radius 1 m for 90 degrees, then drive 1 m")
+    rig.session.say("slower")
+    rig.live(30.0)
+    result = rig.session.results[turn]
+    assert result.outcome == "completed"
+    assert (rig.pose.x_m, rig.pose.y_m) == (pytest.approx(2.0, abs=0.05), pytest.approx(2.0, abs=0.05))
+    assert result.duration_s > 20.0
+
+
+def test_what_is_left_after_a_stop_is_driven_at_the_speed_that_was_said(rig: UndoRig) -> None:
+    driving(rig)
+    rig.session.say("slower")
+    rig.live(1.0)
+    rig.session.say("stop")
+    rig.live(1.0)
+    offer = rig.do("continue").proposal
+    assert offer is not None
+    assert offer.plan_text.endswith("at 0.15 m/s")
+
+
+def test_a_paused_plan_goes_on_at_the_speed_that_was_said(rig: UndoRig) -> None:
+    turn = driving(rig)
+    rig.session.pause()
+    rig.live(1.0)
+    reply = rig.do("slower").reply
+    assert "at 0.15 m/s" in reply
+    assert "continue" in reply
+    rig.live(1.0)
+    assert rig.speed_mps == 0.0
+    shown = [event.plan_text for event in rig.events if isinstance(event, Paused)]
+    assert len(shown) == 2
+    assert shown[1] == f"{shown[0]} at 0.15 m/s"
+    rig.session.say("continue")
+    rig.live(2.0)
+    assert rig.speed_mps == pytest.approx(0.15, abs=0.01)
+    rig.live(20.0)
+    assert rig.session.results[turn].outcome == "completed"
+    assert rig.x_m == pytest.approx(3.0, abs=0.02)
+
+
+def test_a_motion_of_a_given_time_lasts_as_long_and_is_made_no_faster(rig: UndoRig) -> None:
+    turn = driving(rig, "drive forward for 6 s")
+    assert rig.do("faster").outcome == "refused"
+    rig.session.say("slower")
+    rig.live(8.0)
+    assert rig.session.results[turn].duration_s == pytest.approx(6.0, abs=0.5)
+    assert rig.x_m == pytest.approx(2.2 * 0.3 + 3.8 * 0.15, abs=0.1)
+
+
+def test_what_was_approved_is_made_slower_but_not_faster(rig: UndoRig) -> None:
+    rig.session.options = Options(while_moving="replace", approve=True)
+    turn = rig.session.say("forward 3 m")
+    rig.live(0.5)
+    rig.session.say("yes")
+    rig.live(2.0)
+    refused = rig.do("faster")
+    assert refused.outcome == "refused"
+    assert "continue, but faster" in refused.reply
+    rig.session.say("slower")
+    rig.live(1.5)
+    assert rig.speed_mps == pytest.approx(0.15, abs=0.01)
+    rig.live(20.0)
+    assert rig.session.results[turn].outcome == "completed"
+
+
+def test_no_change_lifts_a_spoken_speed_limit(rig: UndoRig) -> None:
+    rig.do("never go faster than 0.2 m/s")
+    driving(rig)
+    rig.session.say("three times as fast")
+    rig.live(1.5)
+    assert rig.speed_mps <= 0.21
+
+
+def test_texts_in_a_queue_wait_for_their_turn() -> None:
+    rig = UndoRig()  # as in a pipe
+    driving(rig)
+    rig.session.say("slower")
+    rig.live(1.5)
+    assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
