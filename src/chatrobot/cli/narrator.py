@@ -10,7 +10,7 @@ from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.replies import describe_left, describe_twist
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.phrases import describe_text, render_reason, say
 from chatrobot.plan.shown import folded_plan
 
 PLAN_LINES = 16
@@ -136,8 +136,9 @@ class Narrator:
     def _interpreted(self, event: events.Interpreted) -> Iterator[Line]:
         if not event.plan_text or event.turn in self._streamed:
             return  # the reply comes again with the result, and a plan that streamed in is there already
-        if event.reply and (self._plain or event.by == "model" or self._words.language != "en"):
-            yield Line(event.reply, "cyan", "" if self._plain else "  ")  # a plan is English already
+        is_told = event.by == "model" or self._words.language != "en"  # a plan is English already
+        if event.reply and (self._plain or is_told or event.reply != describe_text(event.plan_text, "en")):
+            yield Line(event.reply, "cyan", "" if self._plain else "  ")
         yield from self._take_plan(event.turn, event.plan_text)
 
     def _take_plan(self, turn: int, plan_text: str) -> Iterator[Line]:

@@ -16,11 +16,11 @@ from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.question import Proposals
 from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting
 from chatrobot.dialogue.resuming import Resuming
-from chatrobot.dialogue.speed_change import SpeedChange
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
+from chatrobot.dialogue.while_driving import WhileDriving
 from chatrobot.language.interpretation import Interpretation, Placement
-from chatrobot.language.phrases import say
+from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.resuming import goes_on_beside, wants_to_resume
 from chatrobot.language.shape_parts import asks_for_rest
 from chatrobot.link.envelope import MOST_CHARACTERS, OBSTACLE_RADIUS_M
@@ -62,12 +62,12 @@ class Dispatch:
     _emit: Callable[[Event], None]
     _stop: Callable[[str], None]
     _hears_robot_soon: Callable[[], bool]
-    _speed_change: SpeedChange = field(init=False)
+    _while_driving: WhileDriving = field(init=False)
     waiting_turn: int = field(default=0, init=False)
     """The turn that is read again once what is under way has ended."""
 
     def __post_init__(self) -> None:
-        self._speed_change = SpeedChange(self._goals, self._understanding, self._requests, self._resuming)
+        self._while_driving = WhileDriving(self._goals, self._understanding, self._requests, self._resuming)
 
     def take(self, utterance: Utterance) -> None:
         """Act on `utterance`, whose turn has come."""
@@ -97,6 +97,10 @@ class Dispatch:
                 reply = self._told("paused_now", self._resuming.paused)
             else:
                 self._understanding.close_question()
+            if utterance.kind == "stop" and self._understanding.can_do(
+                utterance.text
+            ):  # `stop and turn left`
+                reply = f"{reply} {self._understanding.say('only_stopped', utterance.text)}"
             self._emit(Interpreted(utterance.turn, "reflex", "", ""))
             self._requests.conclude(utterance.turn, "stopped", reply)
 
@@ -113,7 +117,8 @@ class Dispatch:
         why = self._utterances.why_void(utterance.turn)
         was_held = self._utterances.waited_behind_pause(utterance.turn)
         code = "dropped_behind_pause" if was_held else "dropped_by_stop"
-        reply = self._understanding.say_because(code, utterance.text, why)
+        reason = render_reason(why, self._understanding.language_of(utterance.text))
+        reply = self._understanding.say(code, utterance.text, reason=reason)
         self._requests.conclude(utterance.turn, "stopped", reply, reason=why)
 
     def _goes_on(self, text: str) -> bool:
@@ -178,7 +183,7 @@ class Dispatch:
 
     def _changes_speed(self, utterance: Utterance) -> bool:
         """Whether `utterance` changes the speed of what is under way: then that is done."""
-        meant = self._speed_change.answer(utterance.text)
+        meant = self._while_driving.answer(utterance.text)
         if meant is None:
             return False
         if (
@@ -208,7 +213,7 @@ class Dispatch:
             self._act_on(utterance, Interpretation("refused", reply, self._understanding.language))
             return
         is_any_under_way = self._requests.is_any_with_motion or self._llm.is_busy
-        if is_any_under_way and meant.is_about_turn_before:
+        if is_any_under_way and (meant.is_about_turn_before or self._while_driving.goes_back(meant)):
             self._end_turn_before(utterance)
             return
         if self._runs_programs_again(utterance, meant):
@@ -247,15 +252,18 @@ class Dispatch:
         if paused is not None and self._understanding.tells_it_stands(meant):
             meant = replace(meant, reply=self._told("paused_now", paused))
         elif self._understanding.tells_it_moves(meant):
-            meant = replace(meant, reply=self._told_under_way(meant) or meant.reply)
+            meant = replace(meant, reply=self._while_driving.told(meant.language) or meant.reply)
         elif self._goals.options.rehearse_only and (meant.remember_place or meant.renamed):
             told = say(meant.language, "only_rehearsed")
             meant = replace(meant, reply=told, remember_place="", renamed={})
         elif paused is None and meant.outcome == "unclear" and meant.proposal is None:
-            meant = self._beside_what_runs(meant)
+            meant = self._while_driving.beside(meant)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(utterance.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
+            if meant.append and self._requests.is_any_with_motion:
+                told = say(meant.language, "after_that", plan=meant.reply)
+                interpreted = replace(interpreted, reply=told)
             # Before it is told: telling takes longer than the way to Motion.
             self._send_plan(utterance, meant, plan_text)
             self._understanding.close_question()
@@ -280,22 +288,6 @@ class Dispatch:
             self._link.send("obstacle", remove=thing.name)
         else:
             self._link.send("obstacle", add=thing.name, circle=[*thing.at_m, OBSTACLE_RADIUS_M])
-
-    def _beside_what_runs(self, meant: Interpretation) -> Interpretation:
-        """`I did nothing`, said while the robot drives: what it does goes on."""
-        running = self._requests.first_with_motion
-        if running is None:
-            return meant
-        told = say(meant.language, "drives_on", text=running[1].text)
-        return replace(meant, reply=f"{meant.reply} {told}")
-
-    def _told_under_way(self, meant: Interpretation) -> str:
-        """The motion that runs and what is left of it; an empty string where no plan of ours runs."""
-        running = self._requests.first_with_motion
-        if running is None or running[1].meant.plan is None:
-            return ""
-        steps = running[1].meant.plan.steps
-        return self._resuming.under_way.told(running[0], steps, meant.language, self._understanding.speed_mps)
 
     def _ask_model(self, utterance: Utterance, meant: Interpretation) -> None:
         options, mode = self._goals.options, self._goals.mode

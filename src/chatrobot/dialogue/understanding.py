@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
-from chatrobot.core.reason import Reason
 from chatrobot.dialogue.places import UNMEASURED, MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
+from chatrobot.language.driven import asks_what_is_left
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
-from chatrobot.language.phrases import describe_steps, render_reason, say
+from chatrobot.language.phrases import describe_steps, say
 from chatrobot.language.speed_limit import kept_within, within_limit
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.robots.profile import OPEN_LOOP, RobotProfile
@@ -190,6 +190,10 @@ class Understanding:
         """Return the plan with what `said` changes of it, beside a yes if `is_agreed`; None for anything else."""
         return self._interpreter.amended(plan, said, self._context(self._dialogue), is_agreed=is_agreed)
 
+    def asks_what_is_left(self, text: str) -> bool:
+        """Return whether `text` asks for what is left of a plan that is driven."""
+        return asks_what_is_left(text, self._context(self._dialogue))
+
     @property
     def limit_mps(self) -> float | None:
         """Return the highest speed that a person allows; None where nobody has said one."""
@@ -209,10 +213,6 @@ class Understanding:
         """Return a phrase in the language of `text`, what the person said."""
         self.hear_language(text)
         return say(self.language, code, text=text[:80], **values)
-
-    def say_because(self, code: str, text: str, why: Reason) -> str:
-        """Return a phrase in the language of `text` that gives a reason."""
-        return self.say(code, text, reason=render_reason(why, self.language_of(text)))
 
     def hear_language(self, text: str) -> None:
         """Answer in the language of `text`, where it has one."""

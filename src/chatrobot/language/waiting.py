@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
 
 from chatrobot.language.acts import agreeing
 from chatrobot.language.answers import with_manner
 from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
-from chatrobot.language.data_files import load_table
+from chatrobot.language.driven import of_speed
 from chatrobot.language.forms import read_definition
 from chatrobot.language.held import (
     adds,
@@ -29,7 +28,7 @@ from chatrobot.language.phrases import say
 from chatrobot.language.proposals import offer, proposed
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
-from chatrobot.language.rules import Rules, form, rules
+from chatrobot.language.rules import form
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 
@@ -129,7 +128,7 @@ def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: 
         Unclear: the plan has no such part, or several that could be meant.
     """
     plain = normalise(said)
-    if not is_agreed and (plain := _of_speed(plain, reading.language)).endswith("?"):
+    if not is_agreed and (plain := of_speed(plain, reading.language)).endswith("?"):
         return None  # `is it fast?` asks; `can you go slower?` is taken above for what it wants
     plain = rephrased(plain, reading.language)
     by_motion = is_agreed and opens_with_but(said)
@@ -147,18 +146,6 @@ def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: 
     if steps is None and by_motion:
         steps = changed_by_motion(plain, plan, reading, read_anew)
     return Plan(tuple(steps)) if steps is not None else None
-
-
-def _of_speed(plain: str, language: str) -> str:
-    """`Too fast`, said of what is being driven, as what changes its speed; other texts as they are."""
-    found = _said_while_driving(language)
-    return next((rule.applied(plain) for rule in found.that_may_match(plain) if rule.is_in(plain)), plain)
-
-
-@cache
-def _said_while_driving(language: str) -> Rules:
-    table = load_table(language, "driven")
-    return rules(f"driven_{language}", table["rules"], table["parts"])
 
 
 def _without_waiting(context: Context) -> Context:

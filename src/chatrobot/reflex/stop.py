@@ -218,6 +218,9 @@ def leads_with_stop(text: str) -> bool:
     units = units_of(text[:MAX_CHARACTERS])
     if _forbids_stopping(units):
         return False
+    first = next((part for part in _BREAK.split(text[:MAX_CHARACTERS]) if units_of(part)), "")
+    if is_stop(first) and units_of(first) not in _NOT_LEADING:
+        return True  # `halt, nicht nach links`: no `halt nicht`
     i = 0
     while i < len(units) and not _is_other_word(units, i):
         found = [p for p in matches(units, i, _STOP) if p not in _NOT_LEADING]

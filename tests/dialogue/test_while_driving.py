@@ -1,11 +1,11 @@
-"""“Slower”, said while the robot drives, changes the speed of what it does, at once and on the same path."""
+"""What is said of a plan while it is driven: its speed changes at once, on the same path; its rest is told."""
 
 from __future__ import annotations
 
 import pytest
 from tests.dialogue.undo_rig import UndoRig
 
-from chatrobot.core.events import Paused, Started
+from chatrobot.core.events import Interpreted, Paused, Started
 from chatrobot.dialogue.options import Options
 
 ASKING = Options(while_moving="replace")
@@ -149,3 +149,52 @@ def test_texts_in_a_queue_wait_for_their_turn() -> None:
     rig.session.say("slower")
     rig.live(1.5)
     assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "where are you going?", "what's left?", "how far is it still?", "how much longer?", "are we there yet?",
+        "what will you do next?", "还有多远？", "你要去哪里？", "到了吗？", "wie weit noch?", "bist du fertig?",
+        "wohin fährst du?",
+    ],
+)  # fmt: skip
+def test_a_question_about_the_rest_is_answered_with_the_rest(rig: UndoRig, asked: str) -> None:
+    driving(rig)
+    answered = rig.session.say(asked)
+    rig.live(0.1)
+    assert rig.session.results[answered].outcome == "answered"
+    assert "2.47" in rig.session.results[answered].reply
+    assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize("said", ["go back", "zurück", "fahr zurück"])
+def test_the_way_back_of_what_is_driven_is_as_far_as_it_came(rig: UndoRig, said: str) -> None:
+    driving(rig)
+    rig.session.say(said)
+    rig.live(20.0)
+    assert rig.x_m == pytest.approx(0.0, abs=0.02)
+
+
+def test_what_is_driven_afterwards_is_told_at_once(rig: UndoRig) -> None:
+    driving(rig)
+    later = rig.session.say("and then turn around")
+    rig.live(0.1)
+    told = [event.reply for event in rig.events if isinstance(event, Interpreted) and event.turn == later]
+    assert told == ["After that: turn left 180°."]
+
+
+@pytest.mark.parametrize("said", ["stop and turn left", "halt, dreh um", "停，向左转"])
+def test_a_stop_tells_that_the_order_behind_it_was_not_done(rig: UndoRig, said: str) -> None:
+    driving(rig)
+    reply = rig.do(said).reply
+    assert said in reply
+    rig.live(5.0)
+    assert rig.speed_mps == 0.0
+    assert rig.pose.yaw_rad == pytest.approx(0.0, abs=0.01)
+
+
+@pytest.mark.parametrize("said", ["stop", "stop! there is a child in front", "halt, nicht nach links", "halt, nicht"])
+def test_a_stop_alone_is_told_in_a_word(rig: UndoRig, said: str) -> None:
+    driving(rig)
+    assert rig.do(said).reply in ("Stopped.", "Angehalten.")
