@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import pytest
 from tests.dialogue.undo_rig import UndoRig
 
+from chatrobot.dialogue.options import Options
 from chatrobot.dialogue.understanding import Instruction
 from chatrobot.language.interpretation import Interpretation
 
@@ -26,8 +27,9 @@ def rig() -> UndoRig:
     ],
 )
 def test_what_was_asked_back_before_an_order_does_not_change_it_later(
-    rig: UndoRig, monkeypatch: pytest.MonkeyPatch, asked: str, order: str, said: str
+    monkeypatch: pytest.MonkeyPatch, asked: str, order: str, said: str
 ) -> None:
+    rig = UndoRig(options=Options(answers_in_turn=True))  # elsewhere, it changes the speed at once
     assert rig.do(asked).outcome == "unclear"
     turn = rig.session.say(order)
     rig.live(1.0)

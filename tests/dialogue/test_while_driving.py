@@ -143,12 +143,27 @@ def test_no_change_lifts_a_spoken_speed_limit(rig: UndoRig) -> None:
     assert rig.speed_mps <= 0.21
 
 
-def test_texts_in_a_queue_wait_for_their_turn() -> None:
-    rig = UndoRig()  # as in a pipe
+def test_lines_of_a_pipe_wait_for_their_turn() -> None:
+    rig = UndoRig(options=Options(answers_in_turn=True))
     driving(rig)
     rig.session.say("slower")
     rig.live(1.5)
     assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+def test_elsewhere_orders_wait_but_no_change_of_speed_and_no_question_does() -> None:
+    rig = UndoRig()  # at the node `input`, in a program
+    turn = driving(rig)
+    rig.session.say("slower")
+    asked = rig.session.say("how much longer?")
+    rig.session.say("turn left")
+    rig.session.say("faster")  # of the turn that waits
+    rig.live(1.5)
+    assert rig.speed_mps == pytest.approx(0.15, abs=0.01)
+    assert rig.session.results[asked].outcome == "answered"
+    rig.live(30.0)
+    assert rig.session.results[turn].outcome == "completed"
+    assert rig.pose.yaw_rad == pytest.approx(1.57, abs=0.03)
 
 
 @pytest.mark.parametrize(
@@ -194,7 +209,9 @@ def test_a_stop_tells_that_the_order_behind_it_was_not_done(rig: UndoRig, said: 
     assert rig.pose.yaw_rad == pytest.approx(0.0, abs=0.01)
 
 
-@pytest.mark.parametrize("said", ["stop", "stop! there is a child in front", "halt, nicht nach links", "halt, nicht"])
+@pytest.mark.parametrize(
+    "said", ["stop", "stop! there is a child in front", "halt, nicht nach links", "halt, nicht"]
+)
 def test_a_stop_alone_is_told_in_a_word(rig: UndoRig, said: str) -> None:
     driving(rig)
     assert rig.do(said).reply in ("Stopped.", "Angehalten.")

@@ -124,6 +124,17 @@ def test_new_motion_can_replace_the_old_after_a_controlled_stop(rig: LinkRig) ->
     assert finished(rig, 2).outcome == "completed"
 
 
+def test_a_plan_under_way_goes_on_at_another_speed_on_its_path(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 0.8 m at 0.3 m/s")
+    moving(rig, 1)
+    rig.link.send("rescale", 2, linear_factor=0.1)  # of no turn that is driven
+    rig.link.send("rescale", 1, linear_factor=0.5)
+    end = finished(rig, 1)
+    assert end.outcome == "completed"
+    assert end.path_m == pytest.approx(0.8, abs=0.01)
+    assert end.duration_s == pytest.approx(5.0, abs=0.7)
+
+
 def test_a_full_queue_refuses_rather_than_forgets(rig: LinkRig) -> None:
     send_plan(rig, 1, "wait 1000 s")
     for turn in range(2, 13):

@@ -89,3 +89,15 @@ def test_what_is_paused_is_dropped_where_who_gave_it_falls_silent(rig: NodeRig) 
     rig.result(said_s)
     time.sleep(0.5)
     assert not moved_since(rig, said_s)
+
+
+def test_slower_is_heard_while_the_robot_drives_though_orders_wait(rig: NodeRig) -> None:
+    rig.rest()
+    rig.drive("forward 1 m at 0.3 m/s")
+    said_s = rig.nodes["input"].say("slower")
+    assert rig.event("result", said_s)["outcome"] == "answered"
+    _, result = rig.events.wait_for(
+        lambda event: event["event"] == "result" and event["outcome"] == "completed", said_s
+    )
+    assert result["path_m"] == pytest.approx(1.0, abs=0.05)
+    assert result["duration_s"] > 5.0

@@ -59,15 +59,12 @@ class Dispatch:
     _resuming: Resuming
     _llm: ModelRequests
     _programs: ProgramRequests | None
+    _while_driving: WhileDriving
     _emit: Callable[[Event], None]
     _stop: Callable[[str], None]
     _hears_robot_soon: Callable[[], bool]
-    _while_driving: WhileDriving = field(init=False)
     waiting_turn: int = field(default=0, init=False)
     """The turn that is read again once what is under way has ended."""
-
-    def __post_init__(self) -> None:
-        self._while_driving = WhileDriving(self._goals, self._understanding, self._requests, self._resuming)
 
     def take(self, utterance: Utterance) -> None:
         """Act on `utterance`, whose turn has come."""

@@ -31,6 +31,7 @@ from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utterance, UtteranceQueue
+from chatrobot.dialogue.while_driving import WhileDriving
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.text import format_plan
 from chatrobot.reflex import is_emergency_stop, is_pause, is_stop, leads_with_stop
@@ -58,36 +59,34 @@ class Session:
         authoring: Authoring | None = None,
         model_setup: ModelSetup | None = None,
     ) -> None:
-        self._link = link
-        self.understanding = understanding
-        understanding.language = options.language
-        self._on_event = on_event
+        self._link, self.understanding, self.authoring = link, understanding, authoring
+        self._on_event, understanding.language = on_event, options.language
         self.on_said: Callable[[int, str], None] = lambda _, __: None
         """Hears, in the thread that says it, each text that was taken in, with the number of its turn."""
         self._resuming = Resuming(understanding)
         self._goals = GoalClient(link, options, self._resuming)
-        self._utterances = UtteranceQueue()
+        self._utterances = waiting = UtteranceQueue()
         self._proposals = Proposals(understanding, self._utterances.is_void_turn, self.approve)
-        self._requests = RequestLog(understanding, self._emit)
+        self._requests = log = RequestLog(understanding, self._emit)
         self.results = self._requests.results  # by the number of the turn
         self._llm = ModelRequests(
             model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
             lambda: self._utterances.pauses,
         )  # fmt: skip
-        self.authoring, waiting, log = authoring, self._utterances, self._requests
-        early, awaits = EarlyAnswers(understanding, self._llm, log, authoring), self._proposals.awaits
+        driving = WhileDriving(self._goals, understanding, log, self._resuming)
+        early = EarlyAnswers(understanding, self._llm, log, authoring, driving)
+        awaits = self._proposals.awaits
         self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early, awaits)
         self._programs: ProgramRequests | None = None
         self._steered_at_s = -math.inf
         if authoring is not None:
             self._programs = ProgramRequests(
-                authoring, understanding, self._requests, self._goals, link, self._emit,
-                self._utterances.is_void_turn, self._finish,
+                authoring, understanding, log, self._goals, link, self._emit, waiting.is_void_turn, self._finish,
             )  # fmt: skip
             self._llm.writer = self._programs
         self._dispatch = Dispatch(
-            link, self._goals, self._utterances, understanding, self._requests, self._proposals, self._resuming,
-            self._llm, self._programs, self._emit, self.stop, self._hears_robot_soon,
+            link, self._goals, waiting, understanding, log, self._proposals, self._resuming, self._llm,
+            self._programs, driving, self._emit, self.stop, self._hears_robot_soon,
         )  # fmt: skip
 
     @property

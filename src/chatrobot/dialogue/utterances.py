@@ -23,6 +23,7 @@ from chatrobot.dialogue.programs.authoring import Authoring, NotWrittenError
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.dialogue.while_driving import WhileDriving
 from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.program_request import read_request
@@ -248,6 +249,8 @@ class NextUtterance:
             if replaces and utterance.turn != waiting_turn:
                 return utterance
             if self._requests.is_any_with_motion:
+                if not options.answers_in_turn and self._early.is_about_motion(utterance):
+                    return utterance
                 answers = (one for one in waiting[number:] if self._awaits(one))
                 return next(answers, None) or self._early.find(waiting[number:])
             if not self._llm.is_busy or self._overtakes(utterance):
@@ -291,7 +294,16 @@ class EarlyAnswers:
     _llm: ModelRequests
     _requests: RequestLog
     _authoring: Authoring | None
+    _while_driving: WhileDriving
     _meant: dict[int, Interpretation | None] = field(default_factory=dict, init=False)
+    _looked_at: tuple[int, bool] = field(default=(0, False), init=False)
+
+    def is_about_motion(self, utterance: Utterance) -> bool:
+        """Return whether it changes the speed of what is driven, or asks for the rest, though it would wait here."""
+        if self._looked_at[0] != utterance.turn and self._while_driving.is_any:
+            is_about = utterance.kind == "text" and self._while_driving.concerns(utterance.text)
+            self._looked_at = (utterance.turn, is_about)
+        return self._looked_at == (utterance.turn, True)
 
     def find(self, waiting: Sequence[Utterance]) -> Utterance | None:
         """Return the first of them that nobody understands, and that those before it do not teach us to."""

@@ -5,7 +5,9 @@ It goes on at another speed on its path, and without a stop.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.resuming import Resuming
@@ -15,8 +17,16 @@ from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import say
 from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Plan, Step
 from chatrobot.plan.text import format_plan, parse_plan
+
+
+class _Motion(NamedTuple):
+    """What Motion has of the session; `step_number` is that of the step under way, repeats counted."""
+
+    turn: int
+    plan: Plan
+    step_number: int
 
 
 @dataclass(eq=False)
@@ -28,44 +38,74 @@ class WhileDriving:
     _requests: RequestLog
     _resuming: Resuming
 
+    @property
+    def is_any(self) -> bool:
+        """True while a plan of the session is driven or paused."""
+        return self._motion() is not None
+
+    def concerns(self, text: str) -> bool:
+        """Return whether `text` changes the speed of what is driven or paused, or asks for what is left of it."""
+        motion = self._motion()
+        asks = motion is not None and self._understanding.asks_what_is_left(text)
+        return asks or (motion is not None and self._changed(motion, text) is not None)
+
     def answer(self, text: str) -> Interpretation | None:
         """Change the speed as `text` says, and return the reply; None where it says anything else or nothing drives."""
-        running = self._requests.first_with_motion
-        if running is None or self._goals.mode != "replace":
-            return None
-        turn, plan = running[0], running[1].meant.plan
-        paused = self._resuming.paused
-        if paused is not None and paused.turn == turn:
-            plan = parse_plan(paused.plan_text)
-        step = 1 if paused is not None else self._resuming.under_way.step_of(turn)
-        if plan is None or step == 0:
+        motion = self._motion()
+        if motion is None:
             return None
         if self._understanding.asks_what_is_left(text):
-            self._understanding.hear_language(text)
-            language = self._understanding.language
-            paused_told = say(language, "paused_now", plan=self._understanding.describe(plan.steps))
-            told = self.told(language) if paused is None else paused_told
-            return Interpretation("answered", told, language)
-        after = self._understanding.amended(plan, text, is_agreed=False)
-        scaling = (
-            speed_scaling(plan, after, self._understanding.profile, step=step) if after is not None else None
-        )
-        if after is None or scaling is None:
+            return self._left(text)
+        changed = self._changed(motion, text)
+        if changed is None:
             return None
+        after, scaling = changed
         self._understanding.hear_language(text)
-        language = self._understanding.language
-        refusal = self._refusal(plan, scaling)
+        refusal = self._refusal(motion.plan, scaling)
         if refusal:
+            language = self._understanding.language
             return Interpretation("refused", say(language, refusal), language)
-        self._goals.rescale(turn, scaling)
+        self._goals.rescale(motion.turn, scaling)
+        paused = self._resuming.paused
         if paused is not None:
             self._resuming.paused = replace(paused, plan_text=format_plan(after))
-        else:
-            self._requests.replace_plan(turn, after)
-        left = after.steps if paused is not None else self._resuming.under_way.left(turn, after.steps)
-        code = "paused_now" if paused is not None else "goes_on"
-        told = say(language, code, plan=self._understanding.describe(left))
-        return Interpretation("answered", told, language)
+            return self._told("paused_now", after.steps)
+        self._requests.replace_plan(motion.turn, after)
+        return self._told("goes_on", self._resuming.under_way.left(motion.turn, after.steps))
+
+    def _motion(self) -> _Motion | None:
+        """What is driven or paused; None where there is nothing, or it has not set out."""
+        running = self._requests.first_with_motion
+        if running is None or running[1].meant.plan is None:
+            return None
+        turn, paused = running[0], self._resuming.paused
+        if paused is not None and paused.turn == turn:
+            return _Motion(turn, parse_plan(paused.plan_text), 1)
+        number = self._resuming.under_way.step_of(turn)
+        return _Motion(turn, running[1].meant.plan, number) if number > 0 else None
+
+    def _changed(self, motion: _Motion, text: str) -> tuple[Plan, SpeedScaling] | None:
+        """The plan at the speed that `text` says, and what makes it of the one before; None for any other text."""
+        after = self._understanding.amended(motion.plan, text, is_agreed=False)
+        if after is None:
+            return None
+        scaling = speed_scaling(
+            motion.plan, after, self._understanding.profile, step_number=motion.step_number
+        )
+        return (after, scaling) if scaling is not None else None
+
+    def _left(self, text: str) -> Interpretation:
+        self._understanding.hear_language(text)
+        paused = self._resuming.paused
+        if paused is not None:
+            return self._told("paused_now", parse_plan(paused.plan_text).steps)
+        language = self._understanding.language
+        return Interpretation("answered", self.told(language), language)
+
+    def _told(self, code: str, steps: Sequence[Step]) -> Interpretation:
+        language = self._understanding.language
+        plan = self._understanding.describe(steps)
+        return Interpretation("answered", say(language, code, plan=plan), language)
 
     def told(self, language: str) -> str:
         """Return the motion that runs and what is left of it; an empty string where no plan of ours runs."""

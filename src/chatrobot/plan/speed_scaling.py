@@ -173,11 +173,13 @@ def _to_the_end(
     return [corner for before_s, corner in zip(times, corners) if corner[0] > before_s]
 
 
-def speed_scaling(before: Plan, after: Plan, profile: RobotProfile, *, step: int = 1) -> SpeedScaling | None:
+def speed_scaling(
+    before: Plan, after: Plan, profile: RobotProfile, *, step_number: int = 1
+) -> SpeedScaling | None:
     """Return what makes the one plan of the other, None where they differ in more than speeds.
 
     Args:
-        step: the number of the step under way, repeats counted; it tells the factor where they differ.
+        step_number: of the step under way, repeats counted; it tells the factor where they differ.
     """
     pairs = list(zip(expanded(before.steps), expanded(after.steps)))
     is_same_path = len(list(expanded(before.steps))) == len(list(expanded(after.steps))) and all(
@@ -186,7 +188,7 @@ def speed_scaling(before: Plan, after: Plan, profile: RobotProfile, *, step: int
     if not is_same_path:
         return None
     factors: dict[bool, float] = {}
-    for one, other in [*pairs[step - 1 :], *pairs]:
+    for one, other in [*pairs[step_number - 1 :], *pairs]:
         if one != other:
             is_turn = isinstance(one, (Turn, Face))
             factors.setdefault(is_turn, _speed(other, profile)[0] / _speed(one, profile)[0])
