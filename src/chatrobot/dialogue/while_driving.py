@@ -116,9 +116,9 @@ class WhileDriving:
         return self._resuming.under_way.told(turn, steps, language, self._understanding.speed_mps)
 
     def beside(self, meant: Interpretation) -> Interpretation:
-        """`I did nothing`, said while the robot drives: what it does goes on."""
+        """`I did nothing`, said while the robot drives: what it does goes on. What waits for a yes does not."""
         running = self._requests.first_with_motion
-        if running is None:
+        if running is None or self._resuming.under_way.step_of(running[0]) == 0:
             return meant
         told = say(meant.language, "drives_on", text=running[1].text)
         return replace(meant, reply=f"{meant.reply} {told}")
