@@ -30,7 +30,8 @@ def driving(rig: UndoRig, order: str = "forward 3 m") -> int:
         ("slower", 0.15), ("slow down", 0.15), ("not so fast", 0.15), ("you're going way too fast!", 0.15),
         ("can you go slower?", 0.15), ("make it slower", 0.15), ("half speed", 0.15), ("20 % slower", 0.24),
         ("at 0.1 m/s", 0.1), ("go at 0.1 m/s", 0.1), ("slow down to 10 cm/s", 0.1), ("faster", 0.51),
-        ("speed up", 0.51), ("too slow", 0.51), ("twice as fast", 0.6), ("20% faster", 0.36),
+        ("speed up", 0.51), ("too slow", 0.51),
+        ("that was too slow", 0.51), ("nicht so langsam", 0.51), ("别这么慢", 0.51), ("twice as fast", 0.6), ("20% faster", 0.36),
         ("慢一点", 0.15), ("你开得太快了", 0.15), ("减速到0.1米每秒", 0.1), ("能不能开快点？", 0.51),
         ("langsamer", 0.15), ("nicht so schnell", 0.15), ("zu schnell", 0.15), ("geh vom Gas", 0.15),
         ("mit 0,1 m/s", 0.1), ("kannst du langsamer fahren?", 0.15), ("viel zu langsam", 0.51),
@@ -51,6 +52,26 @@ def test_the_speed_changes_under_way_and_the_end_stays(rig: UndoRig, said: str, 
 @pytest.mark.parametrize("said", ["is it fast?", "how fast are you?", "was it slower before?", "这样快吗？"])
 def test_a_question_changes_no_speed(rig: UndoRig, said: str) -> None:
     driving(rig)
+    rig.session.say(said)
+    rig.live(1.5)
+    assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize("said", ["at 99 m/s", "1000 times as fast", "mit 99 m/s"])
+def test_a_speed_beyond_the_limits_is_refused_and_told(rig: UndoRig, said: str) -> None:
+    driving(rig)
+    refused = rig.session.say(said)
+    rig.live(1.5)
+    assert rig.session.results[refused].outcome == "refused"
+    assert "1.00 m/s" in rig.session.results[refused].reply
+    assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "said", ["normal speed", "back to normal speed", "恢复正常速度", "normale Geschwindigkeit"]
+)
+def test_the_normal_speed_comes_back(rig: UndoRig, said: str) -> None:
+    driving(rig, "forward 3 m at 0.1 m/s")
     rig.session.say(said)
     rig.live(1.5)
     assert rig.speed_mps == pytest.approx(0.3, abs=0.01)

@@ -9,12 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
-from chatrobot.language.phrases import say
+from chatrobot.language.phrases import render_reason, say
 from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
 from chatrobot.plan.steps import Plan, Step
@@ -59,12 +60,13 @@ class WhileDriving:
         changed = self._changed(motion, text)
         if changed is None:
             return None
-        after, scaling = changed
+        asked, scaling = changed
         self._understanding.hear_language(text)
-        refusal = self._refusal(motion.plan, scaling)
-        if refusal:
+        refusal = self._refusal(motion.plan, asked, scaling)
+        if refusal is not None:
             language = self._understanding.language
-            return Interpretation("refused", say(language, refusal), language)
+            return Interpretation("refused", render_reason(refusal, language), language)
+        after = scaling.plan(motion.plan, self._understanding.profile)
         self._goals.rescale(motion.turn, scaling)
         paused = self._resuming.paused
         if paused is not None:
@@ -130,11 +132,17 @@ class WhileDriving:
         way_back = tuple(inverse(list(plan.steps), None)) if plan is not None else ()
         return meant.plan is not None and not meant.append and meant.plan.steps == way_back
 
-    def _refusal(self, plan: Plan, scaling: SpeedScaling) -> str:
-        """The code of why it may not be faster; slower is always allowed."""
+    def _refusal(self, plan: Plan, asked: Plan, scaling: SpeedScaling) -> Reason | None:
+        """Why it may not be faster; slower is always allowed."""
         if not scaling.is_faster:
-            return ""
+            return None
+        most_mps = self._understanding.profile.limits.max_speed_mps
+        speed_mps = max(
+            (getattr(step, "speed_mps", None) or 0.0 for step in expanded(asked.steps)), default=0.0
+        )
+        if speed_mps > most_mps * (1.0 + 1e-9):
+            return Reason("speed_above_limit", {"asked_mps": speed_mps, "max_mps": most_mps})
         if self._goals.options.approve:
-            return "faster_than_approved"
+            return Reason("faster_than_approved")
         is_timed = any(getattr(step, "duration_s", None) is not None for step in expanded(plan.steps))
-        return "faster_than_timed" if is_timed else ""
+        return Reason("faster_than_timed") if is_timed else None
