@@ -27,7 +27,8 @@ def driving(rig: UndoRig, order: str = "forward 3 m") -> int:
 @pytest.mark.parametrize(
     ("said", "speed_mps"),
     [
-        ("slower", 0.15), ("slow down", 0.15), ("not so fast", 0.15), ("you're going way too fast!", 0.15),
+        ("slower", 0.15), ("slow down", 0.15), ("no hurry", 0.15), ("keine Eile", 0.15), ("不着急", 0.15),
+        ("not so fast", 0.15), ("you're going way too fast!", 0.15),
         ("can you go slower?", 0.15), ("make it slower", 0.15), ("half speed", 0.15), ("20 % slower", 0.24),
         ("at 0.1 m/s", 0.1), ("go at 0.1 m/s", 0.1), ("slow down to 10 cm/s", 0.1), ("faster", 0.51),
         ("speed up", 0.51), ("too slow", 0.51),
@@ -50,8 +51,25 @@ def test_the_speed_changes_under_way_and_the_end_stays(rig: UndoRig, said: str, 
     assert sum(isinstance(event, Started) for event in rig.events) == 1, "it never set out anew"
 
 
-@pytest.mark.parametrize("said", ["is it fast?", "how fast are you?", "was it slower before?", "这样快吗？"])
-def test_a_question_changes_no_speed(rig: UndoRig, said: str) -> None:
+@pytest.mark.parametrize(
+    "said",
+    [
+        "is it fast?",
+        "how fast are you?",
+        "was it slower before?",
+        "这样快吗？",
+        "you are quick today",
+        "wow, fast!",
+        "so fast!",
+        "what a fast robot",
+        "my cat is faster",
+        "du bist schnell",
+        "ganz schön flott",
+        "der andere war langsamer",
+        "好快啊",
+    ],
+)
+def test_a_question_or_a_remark_changes_no_speed(rig: UndoRig, said: str) -> None:
     driving(rig)
     rig.session.say(said)
     rig.live(1.5)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+from chatrobot.language.acts import order_log_odds, read_acts
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.glossed import in_known_words
@@ -12,9 +13,14 @@ from chatrobot.language.rules import Rules, form, rules
 
 
 def of_speed(plain: str, language: str) -> str:
-    """`Too fast`, a normalised text, in the words that change the speed of a plan; other texts as they are."""
+    """A normalised text in the words that change a plan, `slower` for `too fast`; "" where it orders nothing.
+
+    What is no known form has to order something: `you are quick today` tells, and `is it fast?` asks.
+    """
     found = _rules(language)
-    return next((rule.applied(plain) for rule in found.that_may_match(plain) if rule.is_in(plain)), plain)
+    known = next((rule.applied(plain) for rule in found.that_may_match(plain) if rule.is_in(plain)), "")
+    is_order = not plain.endswith("?") and order_log_odds(read_acts(plain)) >= 0.0
+    return known or (plain if is_order else "")
 
 
 def asks_what_is_left(text: str, context: Context) -> bool:

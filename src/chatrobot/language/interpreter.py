@@ -153,12 +153,12 @@ class OfflineInterpreter:
         if change is None:
             return None
         language, change = in_known_words(change, context)
-
         reading = Reading(language, context, self._profile)
         with contextlib.suppress(Unclear):
             return amended(
-                change, plan, reading, lambda part, own: self._meant(part, language, own), is_agreed=is_agreed
-            )
+                change, plan, reading, lambda part, own: self._meant(part, language, own),
+                is_agreed=is_agreed, is_driven=not is_agreed,
+            )  # fmt: skip
         return None
 
     def _likeliest(self, problem: Unclear, text: str, reading: Reading) -> Interpretation | None:
