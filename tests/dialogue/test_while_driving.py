@@ -255,3 +255,14 @@ def test_a_stop_tells_that_the_order_behind_it_was_not_done(rig: UndoRig, said: 
 def test_a_stop_alone_is_told_in_a_word(rig: UndoRig, said: str) -> None:
     driving(rig)
     assert rig.do(said).reply in ("Stopped.", "Angehalten.")
+
+
+@pytest.mark.parametrize(
+    "said", ["nice", "what are you doing", "turn left", "come back", "bla bla", "yes", "return"]
+)
+def test_nothing_said_on_the_way_to_a_place_breaks_the_session(said: str) -> None:
+    rig = UndoRig("home", options=ASKING)
+    driving(rig, "go to the kitchen")
+    about = rig.session.say(said)
+    rig.live(30.0)
+    assert about in rig.session.results

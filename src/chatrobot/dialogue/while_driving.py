@@ -16,6 +16,7 @@ from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.unclear import Unclear
 from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
 from chatrobot.plan.steps import Plan, Step
@@ -129,8 +130,12 @@ class WhileDriving:
         """Return whether it takes back all of what is driven, and takes its place: so far a part of that is done."""
         running = self._requests.first_with_motion
         plan = running[1].meant.plan if running is not None and self._goals.mode == "replace" else None
-        way_back = tuple(inverse(list(plan.steps), None)) if plan is not None else ()
-        return meant.plan is not None and not meant.append and meant.plan.steps == way_back
+        if plan is None or meant.plan is None or meant.append:
+            return False
+        try:
+            return meant.plan.steps == tuple(inverse(list(plan.steps), None))
+        except Unclear:  # a way to a place has no inverse of its own
+            return False
 
     def _refusal(self, plan: Plan, asked: Plan, scaling: SpeedScaling) -> Reason | None:
         """Why it may not be faster; slower is always allowed."""
