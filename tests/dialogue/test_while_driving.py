@@ -96,6 +96,16 @@ def test_the_normal_speed_comes_back(rig: UndoRig, said: str) -> None:
     assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    "said", ["reduce the speed by 50 percent", "increase speed by 0.1 m/s", "减速60%", "加速0.05米每秒"]
+)
+def test_no_word_of_slowing_makes_it_faster_and_none_of_haste_slower(rig: UndoRig, said: str) -> None:
+    driving(rig)
+    rig.session.say(said)
+    rig.live(1.0)
+    assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
 def test_each_change_is_of_the_speed_before(rig: UndoRig) -> None:
     driving(rig)
     for said, speed_mps in (

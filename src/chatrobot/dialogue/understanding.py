@@ -15,7 +15,6 @@ from chatrobot.dialogue.places import UNMEASURED, MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
-from chatrobot.language.driven import asks_what_is_left
 from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import Entry, TurnRecord, plan_in, plan_of
@@ -190,9 +189,10 @@ class Understanding:
         """Return the plan with what `said` changes of it, beside a yes if `is_agreed`; None for anything else."""
         return self._interpreter.amended(plan, said, self._context(self._dialogue), is_agreed=is_agreed)
 
-    def asks_what_is_left(self, text: str) -> bool:
-        """Return whether `text` asks for what is left of a plan that is driven."""
-        return asks_what_is_left(text, self._context(self._dialogue))
+    @property
+    def context(self) -> Context:
+        """Return what is known now, to read a text by."""
+        return self._context(self._dialogue)
 
     @property
     def limit_mps(self) -> float | None:

@@ -13,6 +13,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
+from chatrobot.language.driven import asks_what_is_left, says_otherwise
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import render_reason, say
@@ -48,7 +49,7 @@ class WhileDriving:
     def concerns(self, text: str) -> bool:
         """Return whether `text` changes the speed of what is driven or paused, or asks for what is left of it."""
         motion = self._motion()
-        asks = motion is not None and self._understanding.asks_what_is_left(text)
+        asks = motion is not None and asks_what_is_left(text, self._understanding.context)
         return asks or (motion is not None and self._changed(motion, text) is not None)
 
     def answer(self, text: str) -> Interpretation | None:
@@ -56,7 +57,7 @@ class WhileDriving:
         motion = self._motion()
         if motion is None:
             return None
-        if self._understanding.asks_what_is_left(text):
+        if asks_what_is_left(text, self._understanding.context):
             return self._left(text)
         changed = self._changed(motion, text)
         if changed is None:
@@ -95,7 +96,9 @@ class WhileDriving:
         scaling = speed_scaling(
             motion.plan, after, self._understanding.profile, step_number=motion.step_number
         )
-        return (after, scaling) if scaling is not None else None
+        if scaling is None or says_otherwise(text, self._understanding.context, is_faster=scaling.is_faster):
+            return None
+        return after, scaling
 
     def _left(self, text: str) -> Interpretation:
         self._understanding.hear_language(text)

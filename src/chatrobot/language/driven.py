@@ -29,6 +29,16 @@ def asks_what_is_left(text: str, context: Context) -> bool:
     return form(language, "driven", "left").search(normalise(text)) is not None
 
 
+def says_otherwise(text: str, context: Context, *, is_faster: bool) -> bool:
+    """Whether `text` has only words of the other direction: 减速60% is no share of the highest speed, which is more."""
+    language, text = in_known_words(text, context)
+    plain = of_speed(normalise(text), language)
+    slows, hastens = (
+        form(language, "driven", name).search(plain) is not None for name in ("slows", "hastens")
+    )
+    return slows and not hastens if is_faster else hastens and not slows
+
+
 @cache
 def _rules(language: str) -> Rules:
     table = load_table(language, "driven")
