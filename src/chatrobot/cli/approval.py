@@ -10,7 +10,7 @@ from pathlib import Path
 
 from chatrobot.cli.console.motion_view import MotionView
 from chatrobot.core.errors import UsageError
-from chatrobot.core.events import Event, Finished, Notice, ProgramWritten, Result, Started
+from chatrobot.core.events import Event, Finished, Interpreted, Notice, ProgramWritten, Result, Started
 from chatrobot.dialogue.question import Question
 from chatrobot.dialogue.session import Session
 from chatrobot.language.consent import read_consent, wants_to_edit
@@ -70,9 +70,10 @@ class Approval(Question):
             self._edited_turn = session.say_edited_plan(text, self._before)
         return self._edited_turn
 
-    def mute(self, turn: int) -> None:
-        """Note that what comes of that turn is told otherwise."""
-        self._muted.add(turn)
+    def mute_stop(self, event: Event) -> None:
+        """Note that what comes of a stop is told otherwise, unless its reply says what it left undone."""
+        if isinstance(event, Interpreted) and (event.by, event.reply) == ("reflex", ""):
+            self._muted.add(event.turn)
 
     def is_muted(self, event: Event) -> bool:
         """Tell whether `event` only says what is told otherwise, or that a plan was not done which is being edited.

@@ -94,11 +94,13 @@ class Dispatch:
                 reply = self._told("paused_now", self._resuming.paused)
             else:
                 self._understanding.close_question()
+            undone = ""
             if utterance.kind == "stop" and self._understanding.can_do(
                 utterance.text
             ):  # `stop and turn left`
-                reply = f"{reply} {self._understanding.say('only_stopped', utterance.text)}"
-            self._emit(Interpreted(utterance.turn, "reflex", "", ""))
+                undone = self._understanding.say("only_stopped", utterance.text)
+                reply = f"{reply} {undone}"
+            self._emit(Interpreted(utterance.turn, "reflex", "", undone))
             self._requests.conclude(utterance.turn, "stopped", reply)
 
     def texts_behind(self, turn: int) -> tuple[str, ...]:
@@ -183,24 +185,22 @@ class Dispatch:
         meant = self._while_driving.answer(utterance.text)
         if meant is None:
             return False
-        if (
-            meant.outcome == "answered"
-            and self._resuming.paused is not None
-            and goes_on_beside(utterance.text)
-        ):
+        if meant.outcome == "answered" and self._continues_beside(utterance):
             self._go_on(utterance)
         else:
             self._act_on(utterance, meant)
         return True
+
+    def _continues_beside(self, utterance: Utterance) -> bool:
+        """Whether it says to go on with what is paused, and something beside it."""
+        return self._resuming.paused is not None and goes_on_beside(utterance.text)
 
     def _understand(self, utterance: Utterance) -> None:
         if self._requests.is_any_with_motion and self._changes_speed(utterance):
             return
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
-        if self._resuming.paused is not None and goes_on_beside(
-            utterance.text
-        ):  # Motion keeps what is paused
+        if self._continues_beside(utterance):  # Motion keeps what is paused, as it is
             reply = self._told("paused_now", self._resuming.paused)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return

@@ -15,7 +15,6 @@ from chatrobot.dialogue.understanding import Instruction, Understanding
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.speed_scaling import SpeedScaling
-from chatrobot.plan.steps import Plan
 
 
 class GoalClient:
@@ -115,9 +114,11 @@ class RequestLog:
         """Note that Motion has that turn; its `finished` ends it."""
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
 
-    def replace_plan(self, turn: int, plan: Plan) -> None:
-        """Note that what Motion has of that turn has become another plan."""
+    def rescale(self, turn: int, scaling: SpeedScaling) -> None:
+        """Note that Motion goes on at another speed with the plan of that turn."""
         instruction = self._with_motion[turn]
+        plan = instruction.meant.plan
+        plan = scaling.plan(plan, self._understanding.profile) if plan is not None else None
         self._with_motion[turn] = instruction._replace(meant=replace(instruction.meant, plan=plan))
 
     def hear(self, event: Event) -> None:

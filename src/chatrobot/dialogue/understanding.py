@@ -185,9 +185,9 @@ class Understanding:
         entry = self._dialogue.ledger.redoes()
         return entry if entry is not None and entry.programs and not entry.back else None
 
-    def amended(self, plan: Plan, said: str, *, is_agreed: bool = True) -> Plan | None:
-        """Return the plan with what `said` changes of it, beside a yes if `is_agreed`; None for anything else."""
-        return self._interpreter.amended(plan, said, self._context(self._dialogue), is_agreed=is_agreed)
+    def amended(self, plan: Plan, said: str) -> Plan | None:
+        """Return the plan with what `said` changes of it; None where that says anything else."""
+        return self._interpreter.amended(plan, said, self.context)
 
     @property
     def context(self) -> Context:

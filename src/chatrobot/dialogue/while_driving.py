@@ -13,14 +13,14 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.driven import asks_what_is_left, says_otherwise
+from chatrobot.language.driven import asks_what_is_left, rescaled
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.base import expanded
-from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
-from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.speed_scaling import SpeedScaling
+from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.plan.text import format_plan, parse_plan
 
 
@@ -70,11 +70,11 @@ class WhileDriving:
             return Interpretation("refused", render_reason(refusal, language), language)
         after = scaling.plan(motion.plan, self._understanding.profile)
         self._goals.rescale(motion.turn, scaling)
+        self._requests.rescale(motion.turn, scaling)
         paused = self._resuming.paused
         if paused is not None:
             self._resuming.paused = replace(paused, plan_text=format_plan(after))
             return self._told("paused_now", after.steps)
-        self._requests.replace_plan(motion.turn, after)
         return self._told("goes_on", self._resuming.under_way.left(motion.turn, after.steps))
 
     def _motion(self) -> _Motion | None:
@@ -90,15 +90,8 @@ class WhileDriving:
 
     def _changed(self, motion: _Motion, text: str) -> tuple[Plan, SpeedScaling] | None:
         """The plan at the speed that `text` says, and what makes it of the one before; None for any other text."""
-        after = self._understanding.amended(motion.plan, text, is_agreed=False)
-        if after is None:
-            return None
-        scaling = speed_scaling(
-            motion.plan, after, self._understanding.profile, step_number=motion.step_number
-        )
-        if scaling is None or says_otherwise(text, self._understanding.context, is_faster=scaling.is_faster):
-            return None
-        return after, scaling
+        understanding = self._understanding
+        return rescaled(motion.plan, text, motion.step_number, understanding.context, understanding.profile)
 
     def _left(self, text: str) -> Interpretation:
         self._understanding.hear_language(text)
@@ -110,7 +103,7 @@ class WhileDriving:
 
     def _told(self, code: str, steps: Sequence[Step]) -> Interpretation:
         language = self._understanding.language
-        plan = self._understanding.describe(steps)
+        plan = self._understanding.describe(steps) or say(language, "nothing_left")
         return Interpretation("answered", say(language, code, plan=plan), language)
 
     def told(self, language: str) -> str:
@@ -152,5 +145,6 @@ class WhileDriving:
             return Reason("speed_above_limit", {"asked_mps": speed_mps, "max_mps": most_mps})
         if self._goals.options.approve:
             return Reason("faster_than_approved")
-        is_timed = any(getattr(step, "duration_s", None) is not None for step in expanded(plan.steps))
+        moving = (step for step in expanded(plan.steps) if not isinstance(step, Wait))
+        is_timed = any(getattr(step, "duration_s", None) is not None for step in moving)
         return Reason("faster_than_timed") if is_timed else None

@@ -14,7 +14,8 @@ from chatrobot.language.manner import Pace
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Block, Drive, Face, Go, Plan, Step, Turn
+from chatrobot.plan.base import with_each
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Step, Turn
 
 _BESIDE = frozenset({"filler", "glue", "sep", "pace", "q", "dir", "rot"})
 _MOTION = frozenset({"verb", "dir", "rot", "shape", "place", "defined", "number"})
@@ -88,7 +89,7 @@ def with_manner(plan: Plan, said: str, reading: Reading) -> Plan | None:
     frames = frames_of(reading.atoms(said))
     if len(frames) != 1 or not _is_manner(frames[0]):
         return None
-    steps = tuple(_paced(step, frames[0], reading.pace) for step in plan.steps)
+    steps = tuple(with_each(step, lambda each: _paced(each, frames[0], reading.pace)) for step in plan.steps)
     return Plan(steps) if steps != plan.steps else None
 
 
@@ -100,9 +101,6 @@ def _is_manner(frame: Frame) -> bool:
 
 def _paced(step: Step, frame: Frame, pace: Pace) -> Step:
     """A relative pace is one of the speed that the step has."""
-    if isinstance(step, Block):
-        inside = tuple(_paced(each, frame, pace) for each in step.steps)
-        return replace(step, steps=inside)  # type: ignore[type-var]
     if isinstance(step, (Drive, Arc, Go)) and "rate" not in frame.q:
         speed_mps = step.speed_mps or pace.speed_mps
         usual = replace(pace, speed_mps=speed_mps, before_mps=speed_mps)

@@ -5,14 +5,61 @@ from __future__ import annotations
 from functools import cache
 
 from chatrobot.language.acts import order_log_odds, read_acts
+from chatrobot.language.answers import with_manner
 from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.glossed import in_known_words
+from chatrobot.language.held import is_no_order, names_part
 from chatrobot.language.normalise import normalise
+from chatrobot.language.reading import Reading
+from chatrobot.language.rephrase import rephrased
 from chatrobot.language.rules import Rules, form, rules
+from chatrobot.language.speed_limit import bounded, plan_within, without_limit
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
+from chatrobot.plan.steps import Plan
+from chatrobot.robots.profile import RobotProfile
 
 
-def of_speed(plain: str, language: str) -> str:
+def rescaled(
+    plan: Plan, said: str, step_number: int, context: Context, profile: RobotProfile
+) -> tuple[Plan, SpeedScaling] | None:
+    """The plan at the speed that is `said` of it, and what makes it of `plan`; None for any other text. Never raises.
+
+    Args:
+        step_number: of the step under way, repeats counted.
+    """
+    language, text = in_known_words(said, context)
+    plain = _of_speed(normalise(text), language)
+    limit_mps = context.dialogue.usual.limit_mps
+    if limit_mps is not None:
+        profile, context = bounded(profile, limit_mps), without_limit(context)
+    after = _with_manner(plan, rephrased(plain, language), Reading(language, context, profile))
+    if after is not None and limit_mps is not None:
+        after = plan_within(after, limit_mps, profile)
+    scaling = speed_scaling(plan, after, profile, step_number=step_number) if after is not None else None
+    if after is None or scaling is None or _says_otherwise(plain, language, is_faster=scaling.is_faster):
+        return None
+    return after, scaling
+
+
+def asks_what_is_left(text: str, context: Context) -> bool:
+    """Whether `text` asks how far the plan is, what comes next or where it leads: `how much longer?`."""
+    language, text = in_known_words(text, context)
+    return form(language, "driven", "left").search(normalise(text)) is not None
+
+
+def _with_manner(plan: Plan, plain: str, reading: Reading) -> Plan | None:
+    """The plan as fast or slow as a text says of all of it; None where it orders a motion, or names a part."""
+    try:
+        if not plain or names_part(plain, reading) or not is_no_order(plain, reading):
+            return None
+        return with_manner(plan, plain, reading)
+    except Unclear:
+        return None
+
+
+def _of_speed(plain: str, language: str) -> str:
     """A normalised text in the words that change a plan, `slower` for `too fast`; "" where it orders nothing.
 
     What is no known form has to order something: `you are quick today` tells, and `is it fast?` asks.
@@ -23,16 +70,8 @@ def of_speed(plain: str, language: str) -> str:
     return known or (plain if is_order else "")
 
 
-def asks_what_is_left(text: str, context: Context) -> bool:
-    """Whether `text` asks how far the plan is, what comes next or where it leads: `how much longer?`."""
-    language, text = in_known_words(text, context)
-    return form(language, "driven", "left").search(normalise(text)) is not None
-
-
-def says_otherwise(text: str, context: Context, *, is_faster: bool) -> bool:
-    """Whether `text` has only words of the other direction: 减速60% is no share of the highest speed, which is more."""
-    language, text = in_known_words(text, context)
-    plain = of_speed(normalise(text), language)
+def _says_otherwise(plain: str, language: str, *, is_faster: bool) -> bool:
+    """Whether it has only words of the other direction: 减速60% is no share of the highest speed, which is more."""
     slows, hastens = (
         form(language, "driven", name).search(plain) is not None for name in ("slows", "hastens")
     )

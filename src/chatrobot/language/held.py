@@ -75,9 +75,14 @@ def adds(plain: str, reading: Reading) -> bool:
     return _said("added", plain, reading) is not None
 
 
+def names_part(plain: str, reading: Reading) -> bool:
+    """Whether a normalised text names a part of a plan: `the second drive`."""
+    return any(_said(name, plain, reading) for name in _NAMING)
+
+
 def is_no_order(plain: str, reading: Reading) -> bool:
     """Whether a normalised text names a part of a plan, or an amount or a way alone: both together are an order."""
-    if any(_said(name, plain, reading) for name in _NAMING):
+    if names_part(plain, reading):
         return True
     kinds = {atom.kind for atom in reading.atoms(plain) if atom.kind != "q" or atom.value in _SIZES}
     return not ("q" in kinds and kinds & {"dir", "rot"}) and not kinds & {"verb", "shape", "place"}

@@ -13,7 +13,8 @@ from chatrobot.language.conditions import is_condition
 from chatrobot.language.ledger import Walk
 from chatrobot.language.phrases import describe_plan, say
 from chatrobot.language.unclear import Unclear
-from chatrobot.plan.steps import Arc, Drive, Plan, Repeat, Step, Turn, Wait
+from chatrobot.plan.base import with_each
+from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn, Wait
 from chatrobot.plan.text import parse_plan
 
 LanguageCode = Literal["en", "zh", "de"]
@@ -124,7 +125,7 @@ def planned(
         Unclear: where there are none.
     """
     try:
-        plan = Plan(tuple(map(_rounded, steps)))
+        plan = Plan(tuple(with_each(step, _rounded) for step in steps))
     except ValueError:
         raise Unclear("nothing_to_do") from None
     return Interpretation("plan", describe_plan(plan, language), language, plan, append, walk=walk)
@@ -132,8 +133,6 @@ def planned(
 
 def _rounded(step: Step) -> Step:
     """Return the step without what arithmetic adds to its numbers: 0.7 m, not 0.7000000000000001 m."""
-    if isinstance(step, Repeat):
-        return replace(step, steps=tuple(map(_rounded, step.steps)))
     if not isinstance(step, (Drive, Turn, Arc, Wait)):
         return step
     values = {name: getattr(step, name, None) for name in _ROUNDED}

@@ -139,26 +139,21 @@ class OfflineInterpreter:
         read = partial(self._interpreted, language=language, context=context)
         return remarked(text, Reading(language, context, self._profile), read)
 
-    def amended(self, plan: Plan, said: str, context: Context, *, is_agreed: bool = True) -> Plan | None:
-        """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises.
-
-        `is_agreed`: a yes has to be said; else `slowly` is said by itself, of a plan that is being driven.
-        """
-        change = after_consent(said) if is_agreed else said
+    def amended(self, plan: Plan, said: str, context: Context) -> Plan | None:
+        """The plan with what is `said` beside a yes (`sure, but slowly`); None for anything else. Never raises."""
+        change = after_consent(said)
         limit_mps = context.dialogue.usual.limit_mps
         if limit_mps is not None:
             slow = OfflineInterpreter(bounded(self._profile, limit_mps))
-            changed = slow.amended(plan, said, without_limit(context), is_agreed=is_agreed)
+            changed = slow.amended(plan, said, without_limit(context))
             return plan_within(changed, limit_mps, self._profile) if changed is not None else None
         if change is None:
             return None
         language, change = in_known_words(change, context)
+
         reading = Reading(language, context, self._profile)
         with contextlib.suppress(Unclear):
-            return amended(
-                change, plan, reading, lambda part, own: self._meant(part, language, own),
-                is_agreed=is_agreed, is_driven=not is_agreed,
-            )  # fmt: skip
+            return amended(change, plan, reading, lambda part, own: self._meant(part, language, own))
         return None
 
     def _likeliest(self, problem: Unclear, text: str, reading: Reading) -> Interpretation | None:

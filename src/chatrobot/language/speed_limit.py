@@ -9,6 +9,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import say
 from chatrobot.language.proposals import offer
+from chatrobot.plan.base import with_each
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, RawTwist, Repeat, Step
 from chatrobot.robots.profile import RobotProfile
 
@@ -39,8 +40,10 @@ def plan_within(plan: Plan, limit_mps: float, profile: RobotProfile) -> Plan:
 
 def kept_within(step: Step, limit_mps: float, profile: RobotProfile) -> Step:
     """The step no faster than `limit_mps`, on the same path. `profile`: the robot's own."""
-    if isinstance(step, Repeat):
-        return replace(step, steps=tuple(kept_within(one, limit_mps, profile) for one in step.steps))
+    return with_each(step, lambda each: _kept_within(each, limit_mps, profile))
+
+
+def _kept_within(step: Step, limit_mps: float, profile: RobotProfile) -> Step:
     if isinstance(step, _DRIVEN):
         is_slower = (step.speed_mps or profile.defaults.speed_mps) <= limit_mps
         return step if is_slower else replace(step, speed_mps=limit_mps)

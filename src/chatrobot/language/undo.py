@@ -12,8 +12,9 @@ from chatrobot.language.inverse import inverse
 from chatrobot.language.ledger import Walk, Way
 from chatrobot.language.manner import Pace
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.base import with_each
 from chatrobot.plan.lowering import ideal_end
-from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Repeat, Step, Turn
+from chatrobot.plan.steps import Arc, Drive, Face, Go, Plan, Step, Turn
 from chatrobot.robots.profile import RobotProfile
 
 PACES = frozenset({"speed", "percent", "fold", "faster"})
@@ -40,12 +41,13 @@ class Walked:
         """
         if not (whole.pace or PACES & set(whole.q)):
             return self
-        return replace(self, steps=tuple(_at_pace(step, whole, pace) for step in self.steps))
+        return replace(
+            self,
+            steps=tuple(with_each(step, lambda each: _at_pace(each, whole, pace)) for step in self.steps),
+        )
 
 
 def _at_pace(step: Step, whole: Frame, pace: Pace) -> Step:
-    if isinstance(step, Repeat):
-        return replace(step, steps=tuple(_at_pace(inner, whole, pace) for inner in step.steps))
     if isinstance(step, (Drive, Turn)) and step.duration_s is not None:
         raise Unclear("unclear_motion", whole.text)
     if isinstance(step, (Drive, Arc, Go)):

@@ -9,7 +9,6 @@ from chatrobot.language.acts import agreeing
 from chatrobot.language.answers import with_manner
 from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
-from chatrobot.language.driven import of_speed
 from chatrobot.language.forms import read_definition
 from chatrobot.language.held import (
     adds,
@@ -117,23 +116,17 @@ def _corrects(text: str, language: str) -> bool:
     return form(language, "held", "instead").search(rephrased(normalise(text), language)) is not None
 
 
-def amended(
-    said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: bool = True, is_driven: bool = False
-) -> Plan | None:
+def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: bool = True) -> Plan | None:
     """The plan with what is `said` of it; None where that changes nothing of it, or is an order of its own.
 
     Args:
         is_agreed: a yes goes before; then a `but` may change it by a motion, and an `and then` goes on from it.
             Without one of them `ok, turn right` is an order of its own.
-        is_driven: the plan is under way, and nothing asks for a change of it.
 
     Raises:
         Unclear: the plan has no such part, or several that could be meant.
     """
-    plain = normalise(said)
-    if is_driven and not (plain := of_speed(plain, reading.language)):
-        return None
-    plain = rephrased(plain, reading.language)
+    plain = rephrased(normalise(said), reading.language)
     by_motion = is_agreed and opens_with_but(said)
     if not (is_no_order(plain, reading) or by_motion or (is_agreed and adds(plain, reading))):
         return None

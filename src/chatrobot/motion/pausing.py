@@ -53,18 +53,14 @@ class PausedGoal:
 
     def settle(self) -> Paused:
         """Measure how far it came, now that the robot stands; return what is shown of it."""
-        self._so_far = self._measure()
-        return self._shown(self._so_far)
-
-    def _shown(self, so_far: Finished) -> Paused:
+        self._so_far = so_far = self._measure()
         return Paused(self.goal.turn, so_far.pose, so_far.remaining, so_far.reason)
 
-    def rescale(self, scaling: SpeedScaling, profile: RobotProfile) -> Paused:
-        """Go on at another speed once it is resumed; return what is shown of it then."""
+    def rescale(self, scaling: SpeedScaling, profile: RobotProfile) -> None:
+        """Go on at another speed once it is resumed."""
         so_far = self._so_far or self._measure()
         left = scaling.plan(parse_plan(so_far.remaining), profile)
         self._so_far = replace(so_far, remaining=format_plan(left))
-        return self._shown(self._so_far)
 
     def lapsed(self, now_s: float, pose: Pose) -> Reason | None:
         """Return why it may not be resumed any more, the robot being at `pose`."""
@@ -178,9 +174,9 @@ class Pausing:
         self._go_on(paused)
 
     def rescale(self, envelope: Envelope, scaling: SpeedScaling) -> None:
-        """Go on at another speed once it is resumed, where it is of that source and turn; tell what is left then."""
+        """Go on at another speed once it is resumed, where it is of that source and turn."""
         if self._paused is not None and self._paused.is_for(envelope):
-            self._emit(self._paused.rescale(scaling, self._robot.profile))
+            self._paused.rescale(scaling, self._robot.profile)
 
     def _go_on(self, paused: PausedGoal) -> None:
         self._paused = None

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal, cast
 
 from chatrobot.core.errors import PlanError
 
@@ -107,6 +107,14 @@ def expanded(steps: Sequence[Step]) -> Iterator[Step]:
                 yield from expanded(step.steps)
         else:
             yield step
+
+
+def with_each(step: Step, change: Callable[[Step], Step]) -> Step:
+    """Return `step` changed; of a block, with each of the steps inside changed."""
+    if not isinstance(step, Block):
+        return change(step)
+    inside: dict[str, Any] = {"steps": tuple(with_each(each, change) for each in step.steps)}
+    return cast(Step, replace(cast(Any, step), **inside))
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,11 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 from chatrobot.core.geometry import Twist
-from chatrobot.plan.base import Block, Plan, Step, expanded
+from chatrobot.plan.base import Plan, Step, expanded, with_each
 from chatrobot.plan.context import max_arc_speed_mps, max_speed_mps
 from chatrobot.plan.steps import Arc, Drive, Face, Go, Turn
 from chatrobot.plan.trajectory import Ramp, RampedTwist, Segment, ramp_rate
@@ -66,9 +67,8 @@ class SpeedScaling:
         slope_per_s = ramp_rate(limits, twist)
         s, rate = (value / factor for value in segment.ramp.at(t_s))
         full_rest_s = segment.ramp.hold_s - s * factor
-        if (
-            motion.is_timed and factor < 1.0
-        ):  # it lasts as long: what it covers while it slows down counts in addition
+        if motion.is_timed and factor < 1.0:
+            # It lasts as long: what it covers while it slows down counts in addition.
             rest_s = full_rest_s + 0.5 * (max(rate, 1.0) - 1.0) ** 2 / slope_per_s
         else:
             rest_s = full_rest_s / factor
@@ -82,12 +82,9 @@ class SpeedScaling:
 
     def plan(self, plan: Plan, profile: RobotProfile) -> Plan:
         """Return the plan whose steps say the other speed."""
-        return Plan(tuple(self._step(step, profile) for step in plan.steps))
+        return Plan(tuple(with_each(step, partial(self._step, profile)) for step in plan.steps))
 
-    def _step(self, step: Step, profile: RobotProfile) -> Step:
-        if isinstance(step, Block):
-            inside = tuple(self._step(each, profile) for each in step.steps)
-            return replace(step, steps=inside)  # type: ignore[type-var]
+    def _step(self, profile: RobotProfile, step: Step) -> Step:
         if isinstance(step, (Drive, Go, Arc)) and self.linear_factor != 1.0:
             speed_mps, most_mps = _speed(step, profile)
             return replace(step, speed_mps=min(speed_mps * self.linear_factor, most_mps))
@@ -129,9 +126,8 @@ class ChangedRamp(Ramp):
             return (0.0, 0.0) if t_s <= 0.0 else (self.hold_s, 0.0)
         before = bisect_right(self._times_s, t_s) - 1
         rate, slope_per_s, since_s = self.corners[before][1], self._slope(before), t_s - self._times_s[before]
-        return self._progress[before] + (
-            rate + 0.5 * slope_per_s * since_s
-        ) * since_s, rate + slope_per_s * since_s
+        s = self._progress[before] + (rate + 0.5 * slope_per_s * since_s) * since_s
+        return s, rate + slope_per_s * since_s
 
     def time_at(self, s: float) -> float:
         """Return when it is at progress `s`."""
@@ -159,11 +155,8 @@ def _to_the_end(
     t_s: float, rate_share: float, rest_s: float, slope_per_s: float
 ) -> list[tuple[float, float]]:
     """The corners from a rate at `t_s` to full speed, or as near as the rest allows, level, and down to a stand."""
-    peak = (
-        1.0
-        if rate_share >= 1.0
-        else min(1.0, math.sqrt(slope_per_s * rest_s + 0.5 * rate_share * rate_share))
-    )
+    reached = math.sqrt(slope_per_s * rest_s + 0.5 * rate_share * rate_share)
+    peak = 1.0 if rate_share >= 1.0 else min(1.0, reached)
     changing_s, braking_s = abs(peak - rate_share) / slope_per_s, peak / slope_per_s
     level = rest_s - 0.5 * (rate_share + peak) * changing_s - 0.5 * peak * braking_s
     there_s = t_s + changing_s
@@ -181,12 +174,10 @@ def speed_scaling(
     Args:
         step_number: of the step under way, repeats counted; it tells the factor where they differ.
     """
-    pairs = list(zip(expanded(before.steps), expanded(after.steps)))
-    is_same_path = len(list(expanded(before.steps))) == len(list(expanded(after.steps))) and all(
-        _at_no_speed(one) == _at_no_speed(other) for one, other in pairs
-    )
-    if not is_same_path:
+    planned, changed = list(expanded(before.steps)), list(expanded(after.steps))
+    if list(map(_at_no_speed, planned)) != list(map(_at_no_speed, changed)):
         return None
+    pairs = list(zip(planned, changed))
     factors: dict[bool, float] = {}
     for one, other in [*pairs[step_number - 1 :], *pairs]:
         if one != other:

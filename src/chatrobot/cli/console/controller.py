@@ -36,7 +36,7 @@ from chatrobot.cli.narrator import Narrator
 from chatrobot.compose import Connection
 from chatrobot.core.clock import Clock
 from chatrobot.core.errors import LinkError
-from chatrobot.core.events import RELEASED, Event, Interpreted, Notice, Result, Started, Telemetry
+from chatrobot.core.events import RELEASED, Event, Notice, Result, Started, Telemetry
 from chatrobot.core.sensed_events import ObstacleChanged
 from chatrobot.dialogue.pump import Pump
 from chatrobot.dialogue.replies import is_parting
@@ -295,9 +295,9 @@ class ChatController:
             if asks:
                 question = Text(f"  {self.words.say('ask_approval')}", "bold")
                 lines += [way_map(self.motion_view, self.connection.world), question]
-            is_stop = isinstance(event, Interpreted) and event.by == "reflex" and not self._pauses_again
-            if is_stop and (self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused):
-                self._approval.mute(event.turn)  # what was moving says how it ended
+            ends_what_moved = self.motion_view.is_moving or self._said_stopped or self.session.is_plan_paused
+            if ends_what_moved and not self._pauses_again:
+                self._approval.mute_stop(event)  # what was moving says how it ended
             if isinstance(event, Result):
                 self._said_stopped = event.outcome == "stopped"
             if lines and not self._approval.is_muted(event):
