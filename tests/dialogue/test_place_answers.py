@@ -11,6 +11,8 @@ from chatrobot.dialogue.places import MapWays
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.context import RobotState
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.plan.steps import Go
+from chatrobot.plan.text import format_plan
 from chatrobot.robots.load import DEFAULT_PROFILE, load_profile
 from chatrobot.sim.load import load_world
 from chatrobot.sim.world import World
@@ -129,3 +131,46 @@ def test_what_is_on_a_side_is_what_the_lidar_sees_there(text: str, reply: str) -
 
 def test_without_a_lidar_it_says_that_it_cannot_see() -> None:
     assert asked("what is on your right?").reply.startswith("I cannot see that")
+
+
+@pytest.mark.parametrize("text", ["how far from start are you?", "离起点多远"])
+def test_the_way_to_a_near_place_is_told_in_centimetres(text: str) -> None:
+    assert "0.20" in asked(text, pose=Pose(0.2, 0.0)).reply
+
+
+@pytest.mark.parametrize(
+    ("text", "side"),
+    [
+        ("go 50 cm closer to the sofa", -1.0),
+        ("geh 50 cm näher ans Sofa", -1.0),
+        ("离沙发近半米", -1.0),
+        ("drive until you are one metre from the sofa", -1.0),
+        ("keep going until there's half a metre to the sofa", -1.0),
+    ],
+)
+def test_a_distance_to_a_known_place_is_a_way_to_it(text: str, side: float) -> None:
+    """The sofa is behind: none of these drives ahead."""
+    plan = asked(text).plan
+    assert plan is not None
+    (step,) = plan.steps
+    assert isinstance(step, Go)
+    assert step.x_m is not None
+    assert step.x_m * side > 0.1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "back up until you are 30 cm from the door",
+        "rückwärts bis 30 cm vor der Tür",
+        "后退到离门三十厘米的地方",
+    ],
+)
+def test_a_way_back_to_a_place_that_may_be_elsewhere_is_asked_about(text: str) -> None:
+    assert asked(text).plan is None
+
+
+def test_what_is_no_place_is_seen_by_a_sensor() -> None:
+    plan = asked("drive until you are 50 cm from the wall").plan
+    assert plan is not None
+    assert format_plan(plan) == "drive forward until obstacle within 0.5 m"

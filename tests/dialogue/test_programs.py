@@ -165,6 +165,36 @@ def test_a_kept_program_runs_again_by_its_name(house: House, name: str, said: st
     assert house.authoring.library.get(name).runs[-1].outcome == "completed"
 
 
+@pytest.mark.parametrize(
+    ("text", "name", "metres"),
+    [
+        ("write a program that goes forward 30 cm and call it dash", "dash", 0.3),
+        ("write a program called zigzag that goes forward 30 cm and turns left", "zigzag", 0.3),
+        ("make a program called pyramid. It goes forward 20 cm and turns left.", "pyramid", 0.2),
+        ("schreibe ein Programm namens Tor: 30 cm vor, links drehen", "tor", 0.3),
+        ("写一个程序：前进二十厘米，左转九十度，重复四次，叫做小方块", "小方块", 0.8),
+        ("写一个程序，前进三十厘米，取名叫大三角形", "大三角形", 0.3),
+    ],
+)
+def test_the_name_that_a_program_is_given_is_no_motion(
+    house: House, text: str, name: str, metres: float
+) -> None:
+    result = house.do(text)
+    assert result.outcome == "completed", result.reply
+    assert house.all(Result)[-1].path_m == pytest.approx(metres, abs=0.02)
+    assert house.authoring.library.find(name) is not None
+
+
+@pytest.mark.parametrize(
+    "said", ["run the door twice", "run the door but slower", "starte door zweimal", "运行door两次"]
+)
+def test_a_program_is_not_run_otherwise_than_it_is(house: House, said: str) -> None:
+    house.do("write a program called door: forward 10 cm")
+    result = house.do(said)
+    assert result.outcome == "refused"
+    assert "door" in result.reply
+
+
 def test_a_new_program_is_kept_with_where_it_comes_from_and_how_it_went(house: House) -> None:
     house.model(fenced(DANCE + "# kept\n"))
     house.do(ASKED)

@@ -7,6 +7,7 @@ from tests.dialogue.undo_rig import UndoRig
 
 from chatrobot.core.events import Interpreted, Paused, Started
 from chatrobot.dialogue.options import Options
+from chatrobot.language.interpreter import OfflineInterpreter
 
 ASKING = Options(while_moving="replace")
 
@@ -310,3 +311,62 @@ def test_what_is_said_of_one_part_changes_no_other(rig: UndoRig) -> None:
     rig.session.say("slower only in the turns")
     rig.live(1.0)
     assert rig.speed_mps == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize("mode", ["replace", "queue"])
+@pytest.mark.parametrize(
+    ("order", "said"),
+    [
+        ("turn left 180 degrees", "don't turn"),
+        ("turn left 180 degrees", "not left"),
+        ("turn left 180 degrees", "no turning"),
+        ("turn left 180 degrees", "dreh dich nicht"),
+        ("turn left 180 degrees", "不要转"),
+        ("forward 3 m", "not forward"),
+        ("forward 3 m", "nicht vorwärts"),
+        ("forward 1 m, then go to (3, 1)", "not to (3, 1)"),
+    ],
+)
+def test_what_is_forbidden_while_it_is_done_stops(mode: str, order: str, said: str) -> None:
+    rig = UndoRig(options=Options(while_moving=mode))
+    rig.session.say(order)
+    rig.live(1.0)
+    turn = rig.session.say(said)
+    rig.live(1.0)
+    assert not rig.session.is_moving
+    assert rig.session.results[turn].outcome == "stopped"
+
+
+def test_a_forbidden_haste_is_a_slower_speed(rig: UndoRig) -> None:
+    turn = driving(rig, "turn left 180 degrees")
+    rig.session.say("don't turn so fast")
+    rig.live(20.0)
+    assert rig.session.results[turn].outcome == "completed"
+
+
+def test_a_question_about_a_step_that_a_proposal_has_not_keeps_the_session() -> None:
+    rig = UndoRig("home")
+    rig.session.say("forward 5 m")  # too far there: what is free is proposed
+    rig.live(2.0)
+    turn = rig.session.say("what was the second step?")
+    rig.live(1.0)
+    result = rig.session.results[turn]
+    assert result.outcome == "unclear"
+    assert result.proposal is not None
+
+
+def test_a_fault_in_reading_one_text_is_told_and_ends_no_session(
+    rig: UndoRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise KeyError("a table that is not there")
+
+    first = driving(rig)
+    with monkeypatch.context() as patched:
+        patched.setattr(OfflineInterpreter, "interpret", broken)
+        told = rig.session.say("what now?")
+        rig.live(1.0)
+    assert "KeyError" in rig.session.results[told].reply
+    rig.session.say("stop")
+    rig.live(1.0)
+    assert rig.session.results[first].outcome == "stopped"

@@ -99,7 +99,7 @@ class Understanding:
         turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
         dialogue = replace(self._dialogue, turns=turns, places=self.places.all())
         self._last = (text, self._context(dialogue))
-        meant = self._interpreter.interpret(*self._last)
+        meant = self._read(*self._last)
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
             code = UNHEARD if self.is_measured else "answer_unmeasured"
@@ -122,10 +122,20 @@ class Understanding:
         known = (self.world_places, without_heading, self._names, ways.any, ways.ring, ways.along)
         return Context(dialogue, self._state, *known, self.language)
 
+    def would_mean(self, text: str) -> Interpretation:
+        """Return what `text` would mean if it were said now. From any thread: nothing is noted."""
+        return self._read(text, self.context)
+
+    def _read(self, text: str, context: Context) -> Interpretation:
+        try:
+            return self._interpreter.interpret(text, context)
+        except Exception as error:  # noqa: BLE001  # a fault in reading one text ends no session, and is told
+            told = say(self.language, "reading_failed", problem=type(error).__name__)
+            return Interpretation("unclear", told, self.language, code="reading_failed")
+
     def can_do(self, text: str) -> bool:
-        """Return whether `text` would be driven if it were said now. From any thread: nothing is noted."""
-        dialogue = replace(self._dialogue, places=self.places.all())
-        return self._interpreter.interpret(text, self._context(dialogue)).outcome == "plan"
+        """Return whether `text` would be driven if it were said now. From any thread."""
+        return self.would_mean(text).outcome == "plan"
 
     def place_names(self) -> list[tuple[str, ...]]:
         """Return the names of each place that can be gone to, the person's own first."""
@@ -192,7 +202,7 @@ class Understanding:
     @property
     def context(self) -> Context:
         """Return what is known now, to read a text by."""
-        return self._context(self._dialogue)
+        return self._context(replace(self._dialogue, places=self.places.all()))
 
     @property
     def limit_mps(self) -> float | None:
@@ -226,15 +236,8 @@ class Understanding:
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """Note where the robot is. `is_ours`: a turn of ours moves it, or may."""
         self._lose(self._rest.hear(event, is_ours=is_ours))
-        self._state = RobotState(
-            event.pose,
-            event.twist,
-            event.moving,
-            event.path_m,
-            event.battery_percent,
-            event.nearest_obstacle_m,
-            event.sectors_m,
-        )
+        around = event.battery_percent, event.nearest_obstacle_m, event.sectors_m
+        self._state = RobotState(event.pose, event.twist, event.moving, event.path_m, *around)
         if not self._started:
             self._started = True
             self._dialogue = replace(self._dialogue, start_pose=event.pose)
@@ -269,18 +272,12 @@ class Understanding:
     ) -> str:
         """Remember a turn of a plan or a program as it really went; return the reply."""
         outcome = finished.outcome
-        if outcome == "completed":
-            self._learn(meant)
+        # What holds from now on does, whatever came of the order beside it.
+        self._learn(meant if outcome == "completed" else replace(meant, define={}, renamed={}))
         plan = meant.plan if outcome in ("completed", "stopped", "failed") and not rehearse_only else None
         told = describe_end(finished, meant.language, meant.plan.steps if meant.plan is not None else ())
         record = TurnRecord(
-            text,
-            outcome,
-            plan,
-            walk=meant.walk,
-            program=program_number,
-            told=told,
-            corrects=meant.corrects,
+            text, outcome, plan, walk=meant.walk, program=program_number, told=told, corrects=meant.corrects
         )
         self._note_end(record, finished)
         if outcome == "refused":  # `no, 2 m` changes what could not be done

@@ -1,6 +1,7 @@
 """What is said of a plan that is driven or paused: “slower” changes its speed, “how much longer?” asks for its rest.
 
-It goes on at another speed on its path, and without a stop.
+It goes on at another speed on its path, and without a stop. “Don't turn” stops it: whoever says so hears no promise
+that the motion breaks.
 """
 
 from __future__ import annotations
@@ -47,13 +48,19 @@ class WhileDriving:
         return self._motion() is not None
 
     def concerns(self, text: str) -> bool:
-        """Return whether `text` changes the speed of what is driven or paused, or asks for what is left of it."""
+        """Return whether `text` changes the speed of what is driven or paused, forbids it, or asks for what is left."""
         motion = self._motion()
-        asks = motion is not None and asks_what_is_left(text, self._understanding.context)
-        return asks or (motion is not None and self._changed(motion, text) is not None)
+        if motion is None:
+            return False
+        asks = asks_what_is_left(text, self._understanding.context)
+        return asks or self._changed(motion, text) is not None or self._forbids(text)
+
+    def _forbids(self, text: str) -> bool:
+        """Return whether `text` only says what is not to be done, while the robot is on its way."""
+        return self._resuming.paused is None and self._understanding.would_mean(text).code == "only_forbidden"
 
     def answer(self, text: str) -> Interpretation | None:
-        """Change the speed as `text` says, and return the reply; None where it says anything else or nothing drives."""
+        """Do what `text` says of the motion, or return the stop that it asks for; None where it says anything else."""
         motion = self._motion()
         if motion is None:
             return None
@@ -61,7 +68,9 @@ class WhileDriving:
             return self._left(text)
         changed = self._changed(motion, text)
         if changed is None:
-            return None
+            language = self._understanding.language
+            stopped = Interpretation("stop", say(language, self._understanding.stop_code()), language)
+            return stopped if self._forbids(text) else None
         asked, scaling = changed
         self._understanding.hear_language(text)
         refusal = self._refusal(motion.plan, asked, scaling)

@@ -19,6 +19,8 @@ _SIZED = frozenset({"FRACTION", "MULTIPLE", "SCALE", "FULLTURN", "SHAPE", "FLAG"
 """Labels of words that tell how much, or point at something that does."""
 SURE_BARE = 3.5
 """Clauses with higher odds of an order are one, whatever stands beside them: `the sun is out. Go forward`."""
+_PRAISE = frozenset({"praise", "opening", "social", "robot"})
+"""Labels of words that tell nothing and call nobody else: `well done, turn right`."""
 _ARTICLE = ("num", "article")
 
 
@@ -27,6 +29,8 @@ def is_bare_order(plan: Plan | None, kept: Sequence[Read], left_out: Sequence[Re
 
     What is surely ordered is none, unless an amount was left out: `v=0.4 m/s, t=5 s. Just drive it`.
     """
+    if left_out and all(sign.label in _PRAISE for read in left_out for sign in read.clause.signs):
+        return False
     steps = plan.steps if plan is not None else ()
     usual = bool(steps) and all(_is_usual(step, pace) for step in steps)
     is_sure = order_log_odds(kept) >= SURE_BARE and not any(has_amount(read.clause) for read in left_out)

@@ -115,7 +115,7 @@ def _count(said: Said) -> int:
 def _last_two(before: _Before) -> tuple[Step, ...]:
     """The last two motions, where each was a turn of its own or there was but one turn of two."""
     if len(before.done) == 1:
-        return before.done[0] if len(before.done[0]) == 2 else ()
+        return before.done[0] if len(before.done[0]) == len(before.whole) == 2 else ()
     one, two = before.done[-2:]
     return (*one, *two) if len(one) == len(two) == 1 else ()
 

@@ -162,8 +162,16 @@ def _side_as_before(atoms: list[Atom], reading: Reading) -> str:
 
 
 def _goes_elsewhere(before: str, atoms: list[Atom], reading: Reading) -> bool:
-    """Whether they name a way, and the order before another one: `two steps forward`, then `1 m to the left`."""
+    """Whether they name a way, and the order before another one: `two steps forward`, then `1 m to the left`.
+
+    A step alone was asked for, and has no way of its own: `forward 20 cm` is another order.
+    """
     said, told = ({a.value for a in of if a.kind in ("dir", "rot")} for of in (atoms, reading.atoms(before)))
+    try:
+        read_command(before, reading)
+    except Unclear as problem:
+        if problem.code == "how_long_a_step" and said and not any(a.value == "each" for a in atoms):
+            return True
     return bool(told) and not said <= told
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import re
 from dataclasses import replace
 
 from chatrobot.language import forms
@@ -12,7 +14,7 @@ from chatrobot.language.earlier_turns import (
     with_earlier_unit,
 )
 from chatrobot.language.facts import told_of_units
-from chatrobot.language.interpretation import Interpretation, taught
+from chatrobot.language.interpretation import Interpretation, Usual, taught
 from chatrobot.language.lexicon import cut
 from chatrobot.language.names import names_in
 from chatrobot.language.phrases import say
@@ -24,6 +26,8 @@ from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.usual import read_usual
 from chatrobot.plan.steps import Arc, Drive, Plan
+
+_MARK = re.compile(r"[;，；。]|(?<!\d)[,.]|[,.](?!\d)")
 
 
 def read_in_words(plain: str, reading: Reading) -> Interpretation:
@@ -45,7 +49,28 @@ def read_in_words(plain: str, reading: Reading) -> Interpretation:
     if told is not None:
         return Interpretation("answered", say(reading.language, told[0], **told[1]), reading.language)
     plain = with_earlier_unit(with_earlier_speed(plain, reading), reading)
-    return _at_one_speed(plain, reading) or read_command(plain, reading)
+    try:
+        return _at_one_speed(plain, reading) or read_command(plain, reading)
+    except Unclear:
+        meant = _set_and_done(plain, reading)
+        if meant is None:
+            raise
+        return meant
+
+
+def _set_and_done(plain: str, reading: Reading) -> Interpretation | None:
+    """What is set from now on and what is done under it: `from now on at 0.2 m/s. Forward 1 m`; else None."""
+    for mark in _MARK.finditer(plain):
+        with contextlib.suppress(Unclear):
+            told = read_command(plain[: mark.start()], reading)
+            if told.outcome != "answered" or told.usual == Usual():
+                continue
+            dialogue = reading.context.dialogue
+            under_it = replace(dialogue, usual=dialogue.usual.changed(told.usual))
+            own = replace(reading, context=replace(reading.context, dialogue=under_it))
+            meant = read_command(plain[mark.end() :], own)
+            return replace(meant, usual=told.usual) if meant.plan is not None else None
+    return None
 
 
 def _at_one_speed(plain: str, reading: Reading) -> Interpretation | None:

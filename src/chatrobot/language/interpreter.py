@@ -41,7 +41,7 @@ from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.one_by_one import one_by_one
 from chatrobot.language.phrases import say
-from chatrobot.language.place_questions import answer_about_places, with_spoken_place
+from chatrobot.language.place_questions import answer_about_places, by_distance_to_place, with_spoken_place
 from chatrobot.language.pointing import beside_reference
 from chatrobot.language.points import naming_points, with_points
 from chatrobot.language.program_request import read_program_request
@@ -84,9 +84,11 @@ class OfflineInterpreter:
         if len(text) > MAX_CHARACTERS:
             reply = say(language, "too_long", characters=len(text))
             return Interpretation("unclear", reply, language, code="too_long")
-        return of_rest(text, language, context, self._with_points) or self._with_points(
-            text, language, context
-        )
+        try:
+            rest = of_rest(text, language, context, self._with_points)
+            return rest or self._with_points(text, language, context)
+        except Unclear as problem:
+            return asked_back(problem, language)
 
     def _with_points(self, text: str, language: LanguageCode, context: Context) -> Interpretation:
         said, context = with_points(text, context)
@@ -100,6 +102,7 @@ class OfflineInterpreter:
         if before.last_motion is not None and not (before.pending or before.offered or before.held):
             whole = in_full_after(whole, language)
         try:
+            whole = by_distance_to_place(whole, language, context)
             said, context = as_meant_after(with_told_apart(whole, language), language, context)
         except Unclear as problem:
             return self._remarked(whole, language, context) or asked_back(problem, language)

@@ -10,7 +10,7 @@ import contextlib
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from chatrobot.language.acts import ORDER, Read, may_be_goal, read_acts, talk_in
+from chatrobot.language.acts import ORDER, Read, may_be_goal, order_log_odds, read_acts, talk_in
 from chatrobot.language.bare_orders import is_bare_order
 from chatrobot.language.beside import (
     SURELY_NOT_MEANT,
@@ -32,7 +32,7 @@ from chatrobot.language.numbers import FAR_M
 from chatrobot.language.pointing import may_change
 from chatrobot.language.proposals import proposed
 from chatrobot.language.reading import Reading
-from chatrobot.language.set_off import odds_without, set_off
+from chatrobot.language.set_off import odds_without, set_off, without_goals
 from chatrobot.language.signs import Names, clauses_of
 from chatrobot.language.strange_words import is_bound
 from chatrobot.language.talk import calls_somebody
@@ -67,7 +67,7 @@ def likeliest(
     near = nearest(plain, problem, reading, read_order) if found is None or found.plan is None else None
     is_near = near is not None and near.probability >= PROPOSED
     if found is None and not is_near:
-        return None
+        return _beside_goals(plain, problem, reading, read)
     calls = calls_somebody(read_acts(plain, names_in(reading.context)), language)
     if near is not None and is_near:
         is_done = near.is_sure and not problem.refused and not calls
@@ -75,6 +75,18 @@ def likeliest(
     if found is not None and problem.is_final:
         found = proposed(found, language) or found
     return None if found is not None and found.plan is None and calls else found
+
+
+def _beside_goals(plain: str, problem: Unclear, reading: Reading, read: Reader) -> Interpretation | None:
+    """The order, proposed, whose amount leads to what nobody knows: `go 2 m to the copier`."""
+    names = names_in(reading.context)
+    left = without_goals(plain, reading.language) if problem.code == "unknown_part" else ""
+    if left and order_log_odds(read_acts(plain, names)) < ORDER:
+        return None
+    try:
+        return proposed(read(left), reading.language, (problem.part,)) if left else None
+    except Unclear:
+        return None
 
 
 def remarked(text: str, reading: Reading, read: Reader) -> Interpretation | None:
@@ -113,6 +125,8 @@ def _beside_talk(plain: str, problem: Unclear, reading: Reading, read: Reader) -
         mended = _mistyped(plain, problem, names, read)
         return proposed(mended, language, (problem.part,)) if mended is not None else None
     is_sure &= bool(pointing) or not is_bare_order(meant.plan, kept, gone, reading.pace)
+    if problem.code == "nothing_before" and reading.context.dialogue.last_motion is not None:
+        is_sure = False  # `step 2 but the other way`, of a single step
     return meant if is_sure else proposed(meant, language, parts)
 
 
@@ -172,9 +186,11 @@ def _with_unit(
     plain: str, number: str, language: LanguageCode, read: Reader, unit: str
 ) -> Interpretation | None:
     """`Drive 50`: in metres, or in centimetres where that would be far; a number alone in the unit used before."""
-    at = [found.start() for found in re.finditer(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])", plain)]
-    if len(at) != 1 or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at "):
-        return None  # `back at 20`: how fast
+    bare = re.compile(rf"(?<![a-z\d_.]){re.escape(number)}(?![a-z\d_.])")
+    at = [found.start() for found in bare.finditer(plain)]
+    alike = len({plain[:begin].rstrip().rpartition(" ")[2] for begin in at}) == 1
+    if not alike or not _DECIMAL.fullmatch(number) or plain[: at[0]].endswith(" at "):
+        return None  # `forward 90, left 90`; `back at 20`: how fast
     clauses = [clause for clause in clauses_of(plain) if clause.moves]
     said = {sign.label for clause in clauses for sign in clause.signs if sign.moves}
     after_turn = unit == _DEG and said <= _ALONE | {"DIR", "ROT"}  # `no, right 45`
@@ -187,7 +203,7 @@ def _with_unit(
     is_angle = after_turn or is_next
     for each in (_DEG, unit) if is_angle else (unit,):
         with contextlib.suppress(Unclear):
-            meant = read(f"{plain[:end]} {each}{plain[end:]}")
+            meant = read(bare.sub(f"{number} {each}", plain))
             steps = meant.plan.steps if meant.plan is not None else ()
             if not is_angle or each == unit or any(isinstance(step, Turn) for step in steps):
                 return proposed(meant, language)

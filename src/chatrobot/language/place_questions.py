@@ -19,12 +19,14 @@ from chatrobot.language.questions import places_known, places_told, topic_of, un
 from chatrobot.language.rules import Rules, rules
 from chatrobot.language.seen import SECTORS, what_is_seen
 from chatrobot.language.typos import edit_distance
+from chatrobot.language.unclear import Unclear
 
-_HERE_M = 0.25
+_HERE_M, _AT_M = 0.25, 0.05
 _ON_SIDE_RAD = math.radians(67.5)
-"""A place so near is here; one so far off a side is not on it."""
+"""A place so near is no other one, or is here; one so far off a side is not on it."""
 _SIDES_DEG = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
 _FAR_OFF = 99
+_SHOWN = 60
 _MOST_NAMED, _MOST_BESIDE = 5, 3
 
 
@@ -124,6 +126,25 @@ def with_spoken_place(plain: str, language: str, context: Context) -> str:
     return f"{found['before']}go to the {place}{found['after']}" if found is not None and place else plain
 
 
+def by_distance_to_place(plain: str, language: str, context: Context) -> str:
+    """`50 cm closer to the sofa`, `until you are 1 m from the sofa`, of a known place, as a way to it.
+
+    Any other text as it is: of what is no place, a sensor sees how far it is.
+
+    Raises:
+        Unclear: it is to be backed up to, or told in another way.
+    """
+    listed = load_table(language, "places_asked").get("by_distance", ())
+    known = _known(context, language) if listed else {}
+    names = "|".join(re.escape(name) for name in sorted(known, key=len, reverse=True) if name)
+    for pattern, said in listed:
+        found = re.search(pattern.replace("PLACE", f"(?:{names})"), plain) if names else None
+        if found is not None and not said:
+            raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
+        plain = f"{plain[: found.start()]}{found.expand(said)}{plain[found.end() :]}" if found else plain
+    return plain
+
+
 def _last_spoken_of(language: str, context: Context) -> str:
     """The one place that the turns since the last motion named last; an empty string for none, or several."""
     known, start = _known(context, language), load_table(language, "places_asked")["start"]
@@ -201,7 +222,7 @@ def _side_of(said: str, language: str) -> str:
 
 def _told(place: _Place, language: str, context: Context) -> str:
     """`The kitchen is ahead to the left, 3.20 m by the way I would drive.`"""
-    if _straight_m(place, context) <= _HERE_M:
+    if _straight_m(place, context) <= _AT_M:
         return say(language, "place_here", place=place.name)
     sector = SECTORS[round(math.degrees(_bearing_rad(place, context)) / 45.0) % 8]
     way_m = context.way_m(place.pose)

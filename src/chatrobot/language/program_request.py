@@ -101,6 +101,7 @@ def read_request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | N
     if found is None and not is_asked_for:
         return None
     tables = found or _tables()[0]
+    whole, plain = plain, tables.wording["named"].sub("", plain, count=1)
     steps = _motion(plain, tables.patterns) or []
     body = _body(plain, tables) if found is not None else plain
     rest = tables.wording["rest"].search(plain)
@@ -108,7 +109,7 @@ def read_request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | N
     return ProgramRequest(
         text=text,
         body=body,
-        name=_name(text, plain, body, tables),
+        name=_name(text, whole, body, tables),
         steps=tuple(steps),
         topic=topic[1] if topic else "",
         uses_sleep=bool(tables.wording["sleep"].search(plain)),
@@ -126,6 +127,21 @@ def read_program_name(text: str, names: Iterable[str]) -> str | None:
             found = tables.wording[pattern].match(plain)
             if found is not None and _key(found["name"]) in known:
                 return known[_key(found["name"])]
+    return None
+
+
+def read_changed_program(text: str, names: Iterable[str]) -> str | None:
+    """Which of the kept programs `text` asks to run otherwise than it is: `run the triangle twice`; else None."""
+    plain = " ".join(normalise(text).split())
+    known = sorted(names, key=len, reverse=True)
+    for tables in _tables():
+        for pattern in ("again", "again_weak"):
+            found = tables.wording[pattern].match(plain)
+            said = _key(found["name"]) if found is not None else ""
+            for name in known:
+                tail = said.removeprefix(_key(name)).strip()
+                if said.startswith(_key(name)) and tables.wording["changed"].match(tail):
+                    return name
     return None
 
 
@@ -191,7 +207,7 @@ def _body(plain: str, tables: _Tables) -> str:
 def _name(text: str, plain: str, body: str, tables: _Tables) -> str:
     named = tables.wording["named"].search(text)
     if named:
-        return named[1].strip()
+        return str(next(filter(None, named.groups()))).strip()
     for name in tables.names.sources:
         if tables.names[name].search(plain):
             return name

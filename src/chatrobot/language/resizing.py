@@ -26,6 +26,8 @@ def resized(steps: list[Step], edit: Edit) -> list[Step] | None:
     out = list(steps)
     for size in edit.amounts:
         role = "radius" if {"radius", "diameter"} & edit.roles else size.value
+        if role == "radius" and size.value in ("angle", "turns", "time"):
+            return None  # `the same radius, one full circle`
         number = size.number / 2 if "diameter" in edit.roles else size.number
         takers = tuple(edit.kinds) if Wait in edit.kinds else TAKERS.get(role, ())  # none takes a count
         taken = [i for i, step in enumerate(out) if isinstance(step, takers)]

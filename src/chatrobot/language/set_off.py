@@ -92,6 +92,13 @@ def _is(clause: Clause, plain: str, name: str, language: str) -> bool:
     return clause.end != "?" and _rules(language, name).any_in(text)
 
 
+def without_goals(plain: str, language: str) -> str:
+    """A normalised text without what an amount is driven to, from or along: `go 2 m to the copier`; else ``""``."""
+    table = load_table(language, "set_off")
+    left = rules(f"goals_{language}", table.get("goals", ()), table["parts"]).applied(plain)
+    return left if left != plain else ""
+
+
 @cache
 def _rules(language: str, name: str) -> Rules:
     table = load_table(language, "set_off")

@@ -77,9 +77,12 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
     offered, agreed = context.dialogue.offered, after_consent(text)
     if offered is None:
         return None
-    told = answered(rephrased(normalise(text), language), offered.steps, reading)
+    asked = proposed(planned([*offered.steps], language), language)
+    try:
+        told = answered(rephrased(normalise(text), language), offered.steps, reading)
+    except Unclear as problem:  # `what was the second step?`, of a single one
+        told = asked_back(problem, language)
     if told is not None:
-        asked = proposed(planned([*offered.steps], language), language)
         return replace(told, proposal=asked.proposal if asked is not None else None)
     try:
         found = amended(agreed or text, offered, reading, meant, is_agreed=agreed is not None)
@@ -89,7 +92,7 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
         found = None
     if found is None:
         may_agree = (text.strip(" .,!").casefold(),) in agreeing()  # `right!`
-        return proposed(planned([*offered.steps], language), language) if may_agree else None
+        return asked if may_agree else None
     done = planned(list(found.steps), language)
     was_clear = bool(context.dialogue.turns) and context.dialogue.turns[-1].outcome == "refused"
     if agreed is not None or (was_clear and _corrects(text, language)) or meant(text, context).plan == found:

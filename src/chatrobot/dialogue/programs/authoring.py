@@ -19,7 +19,12 @@ from chatrobot.dialogue.llm.prompt import mend_prompt, program_prompt
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
-from chatrobot.language.program_request import ProgramRequest, may_be_called, read_program_name
+from chatrobot.language.program_request import (
+    ProgramRequest,
+    may_be_called,
+    read_changed_program,
+    read_program_name,
+)
 from chatrobot.models.seam import CallLimits, Message, Model
 from chatrobot.plan.context import Impossible, RoutePlanner
 from chatrobot.plan.steps import Plan
@@ -80,13 +85,16 @@ class Authoring:
         """Return the kept program that `text` asks to run, with the arguments behind a `--`; None where it asks none.
 
         Raises:
-            NotWrittenError: it cannot be given those arguments.
+            NotWrittenError: it cannot be given those arguments, or is to run otherwise than it is.
         """
         names = self.library.names()
         if not names:
             return None
         said, _, command_line = text.partition(" -- ")
         name = read_program_name(said, names)
+        changed = read_changed_program(said, names) if name is None else None
+        if changed is not None:
+            raise NotWrittenError("refused", say(language, "program_as_it_is", name=changed))
         if name is None:
             return None
         try:

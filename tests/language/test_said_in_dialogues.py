@@ -1,0 +1,195 @@
+"""What people say turn by turn, in their own order and with reasons beside it, is done as meant, or asked about."""
+
+from __future__ import annotations
+
+import pytest
+
+from chatrobot.plan.text import format_plan
+from tests.language.dialogue_runner import Conversation, conversation
+
+LEGS = "forward 20 cm, right 45, forward 60 cm"
+THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        # parts of what was done
+        ((LEGS, "repeat step 3", "now step 2 but the other way"), "turn left 45 deg"),
+        ((LEGS, "the third step but twice as fast"), "drive 0.6 m at 0.6 m/s"),
+        ((LEGS, "undo everything but the first step"), "drive 0.6 m back\nturn left 45 deg"),
+        (
+            ("20 cm vor, 45 Grad rechts", "mach alles rückgängig bis auf den ersten Schritt"),
+            "turn left 45 deg",
+        ),
+        ((LEGS, "those three steps in reverse order"), "drive 0.6 m\nturn right 45 deg\ndrive 0.2 m"),
+        (
+            ("左转45度，走40厘米", "把这两个动作的先后顺序颠倒过来做一遍，动作本身不变"),
+            "drive 0.4 m\nturn left 45 deg",
+        ),
+        (("turn left 20, forward 30 cm, wait 1 s", "repeat the last two steps"), "drive 0.3 m\nwait 1 s"),
+        (("turn left 20 degrees, forward 90 cm", "take 25 cm of that off again"), "drive 0.25 m back"),
+        ((LEGS, "take it all back"), "drive 0.6 m back\nturn left 45 deg\ndrive 0.2 m back"),
+        (("turn left 60, drive 1 m", "undo both of those"), "drive 1 m back\nturn right 60 deg"),
+        (("arc left 120 deg radius 1 m", "drive the rest of the full circle"), "arc left 240 deg radius 1 m"),
+        # as far as before, and not in the same breath
+        (
+            ("turn around", "forward 1.2 m", "and again turn around and just as far again"),
+            "turn left 180 deg\ndrive 1.2 m",
+        ),
+        (("forward 1.5 m", "now left, and the same distance again"), "turn left 90 deg\ndrive 1.5 m"),
+        (
+            ("往左平移四十公分", "哎呀我左右搞反了，先挪回来，再往右挪同样多"),
+            "drive 0.4 m right\ndrive 0.4 m right",
+        ),
+        (("往前走七十公分", "我的意思是总共要一米五，不够的给补上"), "drive 0.8 m"),
+        (("往右转30度", "再30", "凑够90度吧"), "turn right 30 deg"),
+        (("沿着半径半米的弧线往左开半圈", "一样的半径，往右来一整圈"), "arc right 360 deg radius 0.5 m"),
+        (("drive 4 s at 0.25 m/s", "same duration, 0.3 m/s"), "drive 4 s at 0.3 m/s"),
+        (
+            ("Seitlich nach rechts, 30 Zentimeter.", "Nein, nach links meinte ich, Verzeihung."),
+            "drive 0.6 m left",
+        ),
+        # praise before an order tells nothing, and calls nobody
+        (("forward 1 m", "awesome, turn right"), "turn right 90 deg"),
+        (("forward 1 m", "Well done! Now left"), "turn left 90 deg"),
+        (("draw a circle with radius 30 cm", "lovely circle! Now forward 1 m"), "drive 1 m"),
+        (("linksherum 60 Grad", "Genau so. Jetzt einen Meter geradeaus."), "drive 1 m"),
+    ],
+)
+def test_a_turn_means_what_it_says_of_those_before(turns: tuple[str, ...], plan: str) -> None:
+    meant = conversation(*turns[:-1]).say(turns[-1])
+    assert meant.plan is not None, meant.reply
+    assert format_plan(meant.plan) == plan
+
+
+@pytest.mark.parametrize(
+    ("turns", "proposed"),
+    [
+        (("forward 1 m", "step 2 but the other way"), "drive 1 m back"),
+        (("draw a circle", "do it again smaller"), "arc left 360 deg radius 0.25 m"),
+        (("draw a circle", "once more, this time bigger"), "arc left 360 deg radius 1 m"),
+        (("fahr einen Kreis", "nochmal, aber kleiner"), "arc left 360 deg radius 0.25 m"),
+        (("forward 50 cm", "again, only shorter"), "drive 0.25 m"),
+        (("roll 1 m toward the chaise longue",), "drive 1 m"),
+        (("zweieinhalb Meter bis zum Kopierer",), "drive 2.5 m"),
+        (("up the aisle 4 m, then turn left 30 degrees",), "drive 4 m\nturn left 30 deg"),
+        (("forward 30 turn left 90 forward 30",), "drive 0.3 m\nturn left 90 deg\ndrive 0.3 m"),
+        ((THERE, "the whole thing twice, but only wait 2 seconds"), ""),
+        ((LEGS, "the same but begin with a right turn"), ""),
+        (("I meant back, no forward",), ""),
+    ],
+)
+def test_what_may_be_meant_otherwise_is_asked_about(turns: tuple[str, ...], proposed: str) -> None:
+    meant = conversation(*turns[:-1]).say(turns[-1])
+    assert meant.plan is None
+    assert (meant.proposal.plan_text if meant.proposal is not None else "") == proposed
+
+
+@pytest.mark.parametrize(
+    ("text", "plan"),
+    [
+        ("forward one metre fifty turn left", "drive 1.5 m\nturn left 90 deg"),
+        ("drive 1.4 m, 45 degrees to the left of straight ahead", "drive 1.4 m toward 45 deg"),
+        ("drive 1 m, 45 degrees to the left, without turning", "drive 1 m toward 45 deg"),
+        ("3 steps pls: drive 20cm, turn right 45", "drive 0.2 m\nturn right 45 deg"),
+        ("for 7b please draw a triangle, 50 cm sides", "\n".join(["drive 0.5 m\nturn left 120 deg"] * 3)),
+        ("für die 7b bitte ein Dreieck, Seitenlänge 50 cm", "\n".join(["drive 0.5 m\nturn left 120 deg"] * 3)),
+        ("a square of 1 m, turning left 90 degrees at each corner", "\n".join(["drive 1 m\nturn left 90 deg"] * 4)),
+        ("forward 4 m, left, 2 more", "drive 4 m\nturn left 90 deg\ndrive 2 m"),
+        ("the lamp is 1.2 m to your right. Drive one full circle round it", "arc right 360 deg radius 1.2 m"),
+        ("make a small figure eight", "arc left 360 deg radius 0.25 m\narc right 360 deg radius 0.25 m"),
+        ("走个大8字", "arc left 360 deg radius 1 m\narc right 360 deg radius 1 m"),
+        ("左转一下", "turn left 90 deg"),
+        ("0.5 m/s 直行 3 m，然后 0.2 m/s 直线倒回原位", "drive 3 m at 0.5 m/s\ndrive 3 m back at 0.2 m/s"),
+        ("I want to see if the rug is flat. Slide left 20 cm", "drive 0.2 m left"),
+    ],
+)  # fmt: skip
+def test_a_whole_order_is_read_as_it_was_said(text: str, plan: str) -> None:
+    meant = Conversation().say(text)
+    assert meant.plan is not None, meant.reply
+    assert format_plan(meant.plan) == plan
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Ja grüß dich, du kleiner Flitzer, na, gut geschlafen?",
+        "Na, gut geschlafen?",
+        "Excuse me sir, would you step back two metres from the painting, thank you.",
+        "it's 2 m to the copier",
+        "is it 2 m to the copier?",
+        "the ball rolls 2 m down the ramp",
+    ],
+)
+def test_a_greeting_or_a_remark_moves_nothing(text: str) -> None:
+    assert Conversation().say(text).plan is None
+
+
+@pytest.mark.parametrize(
+    ("taught", "word", "plan"),
+    [
+        ("I teach you a dance called jig: forward 20 cm, turn left", "jig", "drive 0.2 m\nturn left 90 deg"),
+        ("Our class dance is called jig: forward 20 cm, turn left", "jig", "drive 0.2 m\nturn left 90 deg"),
+        ("My routine: forward 20 cm, turn left. Call it jig.", "jig", "drive 0.2 m\nturn left 90 deg"),
+        ('When I say "bow" go 15 cm forward. Just remember it, don\'t do it now.', "bow", "drive 0.15 m"),
+        ("Ich bringe dir einen Tanz namens Polka bei: 20 cm vor", "Polka", "drive 0.2 m"),
+        (
+            "我教你个动作叫点头，就是往前十公分再退十公分，先别做，记着就行",
+            "点头",
+            "drive 0.1 m\ndrive 0.1 m back",
+        ),
+        ("摇摆的意思是左转20度", "摇摆", "turn left 20 deg"),
+    ],
+)
+def test_what_is_taught_is_kept_and_not_done(taught: str, word: str, plan: str) -> None:
+    said = Conversation()
+    assert said.say(taught).plan is None
+    meant = said.say(word)
+    assert meant.plan is not None, meant.reply
+    assert format_plan(meant.plan) == plan
+
+
+def test_the_last_motion_gets_a_name() -> None:
+    said = conversation("forward 20 cm, turn left", "call the last move bop")
+    meant = said.say("bop")
+    assert meant.plan is not None
+    assert format_plan(meant.plan) == "drive 0.2 m\nturn left 90 deg"
+
+
+@pytest.mark.parametrize(
+    ("text", "plan"),
+    [
+        ("From now on drive at 0.2 m/s, then forward 1 m", "drive 1 m at 0.2 m/s"),
+        ("ok he's up. Half speed from now on. Reverse 1 m", "drive 1 m back at 0.15 m/s"),
+        ("从现在起速度0.2米每秒。前进1米", "drive 1 m at 0.2 m/s"),
+        ("Ab jetzt 0,2 m/s. Einen Meter vor", "drive 1 m at 0.2 m/s"),
+    ],
+)
+def test_what_is_set_and_what_is_ordered_in_one_breath_are_both_heard(text: str, plan: str) -> None:
+    meant = Conversation().say(text)
+    assert meant.plan is not None, meant.reply
+    assert format_plan(meant.plan) == plan
+    assert meant.usual.speed_mps == pytest.approx(0.15 if "Half" in text else 0.2)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "From now on you drive at 0.15 metres per second, Mr Pettifer has his bad foot out.",
+        "仓库这边地滑，从现在起速度统统用0.15米每秒",
+        "Set default linear speed to 0.15 m/s for all following commands.",
+    ],
+)
+def test_a_reason_beside_a_setting_hides_it_not(text: str) -> None:
+    assert Conversation().say(text).usual.speed_mps == pytest.approx(0.15)
+
+
+@pytest.mark.parametrize("text", ["forward 20 cm", "20 cm vor", "前进20厘米"])
+def test_an_order_of_its_own_is_no_length_of_a_step(text: str) -> None:
+    asked = {"forward 20 cm": "3 steps forward", "20 cm vor": "drei Schritte vor", "前进20厘米": "走三步"}[
+        text
+    ]
+    meant = conversation(asked).say(text)
+    assert meant.plan is not None
+    assert format_plan(meant.plan) == "drive 0.2 m"
