@@ -133,7 +133,10 @@ def test_without_a_lidar_it_says_that_it_cannot_see() -> None:
     assert asked("what is on your right?").reply.startswith("I cannot see that")
 
 
-@pytest.mark.parametrize("text", ["how far from start are you?", "离起点多远"])
+@pytest.mark.parametrize(
+    "text",
+    ["how far from start are you?", "how far from start", "离起点多远", "Wie weit bist du vom Start weg?"],
+)
 def test_the_way_to_a_near_place_is_told_in_centimetres(text: str) -> None:
     assert "0.20" in asked(text, pose=Pose(0.2, 0.0)).reply
 
@@ -174,3 +177,7 @@ def test_what_is_no_place_is_seen_by_a_sensor() -> None:
     plan = asked("drive until you are 50 cm from the wall").plan
     assert plan is not None
     assert format_plan(plan) == "drive forward until obstacle within 0.5 m"
+
+
+def test_whether_it_is_at_a_place_is_answered_by_where_that_is() -> None:
+    assert asked("are you at the sofa now?").reply.startswith("The sofa is behind me")

@@ -195,6 +195,24 @@ def test_a_program_is_not_run_otherwise_than_it_is(house: House, said: str) -> N
     assert "door" in result.reply
 
 
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("what programs do you have?", "Kept programs: "),
+        ("can you write programs?", "write a program that"),
+        ("delete the door program", "chatrobot program remove"),
+        ("lösche das Programm door", "chatrobot program remove"),
+        ("你会写程序吗", "写一个程序"),
+    ],
+)
+def test_a_question_about_programs_is_answered_and_runs_none(house: House, said: str, told: str) -> None:
+    house.do("write a program called door: forward 10 cm")
+    result = house.do(said)
+    assert result.outcome == "answered"
+    assert told in result.reply
+    assert "door" in result.reply
+
+
 def test_a_new_program_is_kept_with_where_it_comes_from_and_how_it_went(house: House) -> None:
     house.model(fenced(DANCE + "# kept\n"))
     house.do(ASKED)

@@ -145,6 +145,15 @@ def read_changed_program(text: str, names: Iterable[str]) -> str | None:
     return None
 
 
+def asks_about_programs(text: str) -> str:
+    """`kept` for `which programs do you have?`, `managed` for `delete the program dash`; else an empty string."""
+    plain = " ".join(normalise(text).split())
+    asked = (
+        kind for tables in _tables() for kind in ("managed", "kept") if tables.wording[kind].search(plain)
+    )
+    return next(asked, "")
+
+
 def may_be_called(name: str) -> bool:
     """Tell whether a program of that name could be run by it: a stop is a stop, whatever else is called so."""
     return not is_stop(name) and read_program_name(f"run {name}", [name]) is not None

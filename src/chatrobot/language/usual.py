@@ -76,7 +76,7 @@ def from_now_on(frames: list[Frame], reading: Reading) -> Interpretation | None:
             return Interpretation("answered", reply, language, usual=Usual(rate_radps=rate))
     else:
         usual = reading.profile.defaults.speed_mps if frame.pace == "default" and not frame.q else None
-        speed = reading.pace.speed(frame) or usual
+        speed = usual or reading.pace.speed(frame)
         if speed is not None:
             reply = say(language, "default_set", mps=f"{speed:.3g}")
             return Interpretation("answered", reply, language, usual=Usual(speed_mps=speed))

@@ -21,6 +21,7 @@ from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.language.program_request import (
     ProgramRequest,
+    asks_about_programs,
     may_be_called,
     read_changed_program,
     read_program_name,
@@ -85,9 +86,15 @@ class Authoring:
         """Return the kept program that `text` asks to run, with the arguments behind a `--`; None where it asks none.
 
         Raises:
-            NotWrittenError: it cannot be given those arguments, or is to run otherwise than it is.
+            NotWrittenError: it cannot be given those arguments, or is to run otherwise than it is; or `text` asks about
+                programs, and that is the answer.
         """
         names = self.library.names()
+        about = asks_about_programs(text)
+        if about:
+            kept = say(language, "programs_named", names=", ".join(names)) if names else ""
+            code = "programs_managed" if about == "managed" else "program_offer"
+            raise NotWrittenError("answered", say(language, code, kept=kept).strip())
         if not names:
             return None
         said, _, command_line = text.partition(" -- ")

@@ -181,8 +181,8 @@ class ProgramRequests:
 
     def _refuse(self, turn: int, text: str, refusal: NotWrittenError, language: LanguageCode) -> None:
         self._emit(Interpreted(turn, "offline", "", refusal.reply))
-        outcome: Literal["unclear", "refused"] = "unclear" if refusal.outcome == "unclear" else "refused"
-        meant = Interpretation(outcome, refusal.reply, language)
+        outcomes: dict[str, Literal["unclear", "answered"]] = {"unclear": "unclear", "answered": "answered"}
+        meant = Interpretation(outcomes.get(refusal.outcome, "refused"), refusal.reply, language)
         self._understanding.note_unmoved(text, meant)
         self._requests.conclude(turn, refusal.outcome, refusal.reply)
 
