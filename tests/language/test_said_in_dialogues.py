@@ -50,6 +50,38 @@ THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
             ("Seitlich nach rechts, 30 Zentimeter.", "Nein, nach links meinte ich, Verzeihung."),
             "drive 0.6 m left",
         ),
+        # a total that was announced, and the rest of it
+        (("You need to get 3 metres forward in total. Do 1 for now.", "ok now the rest"), "drive 2 m"),
+        (("一共要往前3米，先走1米", "接着走80厘米", "剩下的走完"), "drive 1.2 m"),
+        (
+            ("Du sollst insgesamt 3 Meter vorfahren. Fang mit 1,2 Metern an.", "Jetzt den Rest."),
+            "drive 1.8 m",
+        ),
+        # how much, how fast and which way are as before, or as they are said
+        (("forward 0.5 m at 0.1 m/s", "another 50 cm at normal speed"), "drive 0.5 m"),
+        (
+            ("go diagonally forward left for 1 m", "and now forward right, same length"),
+            "drive 1 m toward -45 deg",
+        ),
+        (
+            ("circle to the left with radius 50 cm", "Lovely! And one the other way round."),
+            "arc right 360 deg radius 0.5 m",
+        ),
+        (("前进3秒", "现在后退，时间一样"), "drive 3 s back"),
+        (("右转45度", "再转30"), "turn right 30 deg"),
+        (("以后速度用0.5米每秒", "就这一次用0.2，后退1米"), "drive 1 m back at 0.2 m/s"),
+        (
+            (
+                "50 cm vor, rechts drehen, 20 cm vor",
+                "mach die drei Schritte jetzt in umgekehrter Reihenfolge",
+            ),
+            "drive 0.2 m\nturn right 90 deg\ndrive 0.5 m",
+        ),
+        (("dreh dich 90 Grad rechts", "zu viel, es sollten nur 60 sein"), "turn left 30 deg"),
+        (
+            ('"Runde" heißt: 1 m vorfahren, dann rechts drehen.', "Mach zweimal Runde."),
+            "drive 1 m\nturn right 90 deg\ndrive 1 m\nturn right 90 deg",
+        ),
         # praise before an order tells nothing, and calls nobody
         (("forward 1 m", "awesome, turn right"), "turn right 90 deg"),
         (("forward 1 m", "Well done! Now left"), "turn left 90 deg"),
@@ -75,6 +107,9 @@ def test_a_turn_means_what_it_says_of_those_before(turns: tuple[str, ...], plan:
         (("zweieinhalb Meter bis zum Kopierer",), "drive 2.5 m"),
         (("up the aisle 4 m, then turn left 30 degrees",), "drive 4 m\nturn left 30 deg"),
         (("forward 30 turn left 90 forward 30",), "drive 0.3 m\nturn left 90 deg\ndrive 0.3 m"),
+        (("forward 1 m", "double the speed"), "drive 1 m at 0.6 m/s"),
+        (("forward 1 m", "halb so schnell"), "drive 1 m at 0.15 m/s"),
+        (("前进一米", "速度加倍"), "drive 1 m at 0.6 m/s"),
         ((THERE, "the whole thing twice, but only wait 2 seconds"), ""),
         ((LEGS, "the same but begin with a right turn"), ""),
         (("I meant back, no forward",), ""),

@@ -13,7 +13,7 @@ from functools import cache
 
 from chatrobot.core.geometry import wrap_angle
 from chatrobot.language.context import Context, Dialogue
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.forms import read_definition
 from chatrobot.language.inverse import is_sideways
 from chatrobot.language.last_motion import atoms_said, laps, shapes_said
@@ -49,12 +49,26 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
                 if not rule.said:
                     raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
                 plain = rule.applied(plain)
+    plain = _of_total(plain, language, dialogue)
     if _rules(language, "means", "again").any_in(plain):
         return plain, replace(context, dialogue=as_put_right(dialogue))
     for kind in _MEANT:
         if _rules(language, "means", kind).any_in(plain):
             return plain, replace(context, dialogue=_of_kind(kind, plain, dialogue))
     return plain, context
+
+
+def _of_total(plain: str, language: str, dialogue: Dialogue) -> str:
+    """`Now the rest`, of a total that was announced, as that total: `3 m in total, do 1 for now`; else as it is."""
+    if not _rules(language, "total", "rest").any_in(plain):
+        return plain
+    for turn in reversed(dialogue.turns):
+        said = normalise(turn.text)
+        for code in LANGUAGES:
+            total = _announced(code).applied(said)
+            if total != said:
+                return _rules(language, "total", "put").applied(total)
+    return plain
 
 
 def _was_asked(dialogue: Dialogue, language: str) -> bool:
@@ -269,6 +283,11 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "moved": _has_moved,
     "stopped": _was_stopped,
 }
+
+
+@cache
+def _announced(language: str) -> Rules:
+    return rules(f"announced_{language}", load_table(language, "totals").get("announced", ()), {})
 
 
 @cache

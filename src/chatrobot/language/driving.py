@@ -79,7 +79,8 @@ def _goes_on_for_a_time(state: State) -> bool:
 def _leg(frame: Frame, angle: float, state: State, pace: Pace) -> Drive:
     """The drive at `angle` to the robot's front, radians, by what is said of length, time and speed."""
     goes_on = "more" in frame.flags and state.last == "drive"
-    speed = pace.speed(frame) or (pace.before_mps if goes_on else None)
+    as_before = goes_on and frame.pace != "default"  # `another 50 cm at normal speed`
+    speed = pace.speed(frame) or (pace.before_mps if as_before else None)
     length, seconds, said = frame.q.get("length"), frame.q.get("time"), frame.q.get("speed")
     if length is None and said is not None and said.role and seconds is None:
         return Drive(said.number, direction_rad=angle, speed_mps=speed)
