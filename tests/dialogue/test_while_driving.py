@@ -322,6 +322,10 @@ def test_what_is_said_of_one_part_changes_no_other(rig: UndoRig) -> None:
         ("turn left 180 degrees", "no turning"),
         ("turn left 180 degrees", "dreh dich nicht"),
         ("turn left 180 degrees", "不要转"),
+        ("turn left 180 degrees", "not that way!"),
+        ("forward 3 m", "wrong direction"),
+        ("forward 3 m", "方向错了"),
+        ("forward 3 m", "falsche Richtung!"),
         ("forward 3 m", "not forward"),
         ("forward 3 m", "nicht vorwärts"),
         ("forward 1 m, then go to (3, 1)", "not to (3, 1)"),
@@ -370,3 +374,11 @@ def test_a_fault_in_reading_one_text_is_told_and_ends_no_session(
     rig.session.say("stop")
     rig.live(1.0)
     assert rig.session.results[first].outcome == "stopped"
+
+
+@pytest.mark.parametrize("said", ["and after that left 90", "and after that turn left", "and then back home"])
+def test_what_is_to_come_after_it_waits_for_its_end(rig: UndoRig, said: str) -> None:
+    first = driving(rig, "forward 1 m")
+    rig.session.say(said)
+    rig.live(20.0)
+    assert rig.session.results[first].outcome == "completed"

@@ -82,6 +82,7 @@ THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
             ('"Runde" heißt: 1 m vorfahren, dann rechts drehen.', "Mach zweimal Runde."),
             "drive 1 m\nturn right 90 deg\ndrive 1 m\nturn right 90 deg",
         ),
+        (("forward 1 m", "turn left 90", "look straight ahead again like at the beginning"), "face 0 deg"),
         # praise before an order tells nothing, and calls nobody
         (("forward 1 m", "awesome, turn right"), "turn right 90 deg"),
         (("forward 1 m", "Well done! Now left"), "turn left 90 deg"),
@@ -108,6 +109,8 @@ def test_a_turn_means_what_it_says_of_those_before(turns: tuple[str, ...], plan:
         (("up the aisle 4 m, then turn left 30 degrees",), "drive 4 m\nturn left 30 deg"),
         (("forward 30 turn left 90 forward 30",), "drive 0.3 m\nturn left 90 deg\ndrive 0.3 m"),
         (("forward 1 m", "double the speed"), "drive 1 m at 0.6 m/s"),
+        (("draw a circle", "face where you faced before the circle"), ""),
+        (("ein Quadrat mit 40 cm", "nochmal kleiner"), "\n".join(["drive 0.2 m\nturn left 90 deg"] * 4)),
         (("forward 1 m", "halb so schnell"), "drive 1 m at 0.15 m/s"),
         (("前进一米", "速度加倍"), "drive 1 m at 0.6 m/s"),
         ((THERE, "the whole thing twice, but only wait 2 seconds"), ""),

@@ -14,7 +14,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.driven import asks_what_is_left, rescaled
+from chatrobot.language.driven import asks_what_is_left, calls_it_wrong, rescaled
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import render_reason, say
@@ -56,8 +56,11 @@ class WhileDriving:
         return asks or self._changed(motion, text) is not None or self._forbids(text)
 
     def _forbids(self, text: str) -> bool:
-        """Return whether `text` only says what is not to be done, while the robot is on its way."""
-        return self._resuming.paused is None and self._understanding.would_mean(text).code == "only_forbidden"
+        """Return whether all that `text` says, while the robot is on its way, is against that."""
+        if self._resuming.paused is not None:
+            return False
+        is_wrong = calls_it_wrong(text, self._understanding.context)
+        return is_wrong or self._understanding.would_mean(text).code in ("only_forbidden", "taken_back")
 
     def answer(self, text: str) -> Interpretation | None:
         """Do what `text` says of the motion, or return the stop that it asks for; None where it says anything else."""

@@ -49,6 +49,12 @@ def asks_what_is_left(text: str, context: Context) -> bool:
     return form(language, "driven", "left").search(normalise(text)) is not None
 
 
+def calls_it_wrong(text: str, context: Context) -> bool:
+    """Whether `text` says that the robot goes where it should not: `not that way!`."""
+    language, text = in_known_words(text, context)
+    return form(language, "driven", "wrong").search(normalise(text)) is not None
+
+
 def _with_manner(plan: Plan, plain: str, reading: Reading) -> Plan | None:
     """The plan as fast or slow as a text says of all of it; None where it orders a motion, or names a part."""
     try:
