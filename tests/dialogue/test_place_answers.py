@@ -181,3 +181,10 @@ def test_what_is_no_place_is_seen_by_a_sensor() -> None:
 
 def test_whether_it_is_at_a_place_is_answered_by_where_that_is() -> None:
     assert asked("are you at the sofa now?").reply.startswith("The sofa is behind me")
+
+
+@pytest.mark.parametrize("text", ["drive until you are 50 cm from the board", "一直往前走，直到离黑板50厘米"])
+def test_what_is_driven_to_anyway_is_seen_by_a_sensor(text: str) -> None:
+    plan = asked(text, load_world("classroom")).plan
+    assert plan is not None
+    assert format_plan(plan) == "drive forward until obstacle within 0.5 m"

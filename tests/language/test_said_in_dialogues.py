@@ -59,6 +59,8 @@ THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
         ),
         # how much, how fast and which way are as before, or as they are said
         (("forward 0.5 m at 0.1 m/s", "another 50 cm at normal speed"), "drive 0.5 m"),
+        (("forward half a metre", "a bit slower next time", "again"), "drive 0.5 m at 0.15 m/s"),
+        (("forward half a metre at 0.4 m/s", "from now on 0.1 m/s", "again"), "drive 0.5 m at 0.4 m/s"),
         (
             ("go diagonally forward left for 1 m", "and now forward right, same length"),
             "drive 1 m toward -45 deg",
@@ -116,6 +118,7 @@ def test_a_turn_means_what_it_says_of_those_before(turns: tuple[str, ...], plan:
         ((THERE, "the whole thing twice, but only wait 2 seconds"), ""),
         ((LEGS, "the same but begin with a right turn"), ""),
         (("I meant back, no forward",), ""),
+        (("You are in my way, could you move over a bit?",), ""),
     ],
 )
 def test_what_may_be_meant_otherwise_is_asked_about(turns: tuple[str, ...], proposed: str) -> None:

@@ -303,7 +303,7 @@ def _step(step: Step, whole: Frame, factors: Factors, pace: Pace, ahead_rad: flo
 
 def _speed(old: float | None, whole: Frame, pace: Pace) -> float | None:
     if not whole.pace and not {"speed", "fold", "faster"} & set(whole.q):
-        return old
+        return old or pace.speed_mps  # `a bit slower next time`, then `again`
     usual = old or pace.speed_mps or pace.profile.defaults.speed_mps
     if "faster" in whole.q:
         return whole.q["faster"].number * usual

@@ -22,8 +22,8 @@ from chatrobot.language.typos import edit_distance
 from chatrobot.language.unclear import Unclear
 
 _HERE_M, _AT_M = 0.25, 0.05
-_ON_SIDE_RAD = math.radians(67.5)
-"""A place so near is no other one, or is here; one so far off a side is not on it."""
+_ON_SIDE_RAD, _TOWARDS_RAD = math.radians(67.5), math.radians(35.0)
+"""A place so near is no other one, or is here; one so far off a side is not on it, or not driven to."""
 _SIDES_DEG = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
 _FAR_OFF = 99
 _SHOWN = 60
@@ -129,20 +129,27 @@ def with_spoken_place(plain: str, language: str, context: Context) -> str:
 def by_distance_to_place(plain: str, language: str, context: Context) -> str:
     """`50 cm closer to the sofa`, `until you are 1 m from the sofa`, of a known place, as a way to it.
 
-    Any other text as it is: of what is no place, a sensor sees how far it is.
+    Any other text as it is: of what is no place, or lies where the robot drives, a sensor sees how far it is.
 
     Raises:
-        Unclear: it is to be backed up to, or told in another way.
+        Unclear: it is to be backed up to, or told in another way, and lies elsewhere.
     """
     listed = load_table(language, "places_asked").get("by_distance", ())
     known = _known(context, language) if listed else {}
     names = "|".join(re.escape(name) for name in sorted(known, key=len, reverse=True) if name)
-    for pattern, said in listed:
+    for pattern, said, side in listed:
         found = re.search(pattern.replace("PLACE", f"(?:{names})"), plain) if names else None
-        if found is not None and not said:
+        if found is None or (side and _is_towards(known[found["place"]], side, context)):
+            continue
+        if not said:
             raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
-        plain = f"{plain[: found.start()]}{found.expand(said)}{plain[found.end() :]}" if found else plain
+        plain = f"{plain[: found.start()]}{found.expand(said)}{plain[found.end() :]}"
     return plain
+
+
+def _is_towards(place: _Place, side: str, context: Context) -> bool:
+    off = math.remainder(_bearing_rad(place, context) - math.radians(_SIDES_DEG[side]), 2 * math.pi)
+    return abs(off) < _TOWARDS_RAD
 
 
 def _last_spoken_of(language: str, context: Context) -> str:
