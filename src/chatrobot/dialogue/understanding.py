@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import uuid
 from collections.abc import Sequence
 from dataclasses import replace
@@ -129,7 +130,9 @@ class Understanding:
     def _read(self, text: str, context: Context) -> Interpretation:
         try:
             return self._interpreter.interpret(text, context)
-        except Exception as error:  # noqa: BLE001  # a fault in reading one text ends no session, and is told
+        except Exception as error:  # a fault in reading one text ends no session, and is told
+            if os.environ.get("CHATROBOT_DEBUG"):
+                raise
             told = say(self.language, "reading_failed", problem=type(error).__name__)
             return Interpretation("unclear", told, self.language, code="reading_failed")
 

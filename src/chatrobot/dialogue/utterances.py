@@ -333,10 +333,10 @@ class EarlyAnswers:
         if authoring is None:
             return False
         try:
-            kept = authoring.kept(text, "")
+            kept = authoring.told(text, "en") or authoring.kept(text, "")
         except NotWrittenError:
             return True
-        return kept is not None or read_request(text, is_asked_for=False) is not None
+        return bool(kept) or read_request(text, is_asked_for=False) is not None
 
 
 def _teaches(meant: Interpretation) -> bool:

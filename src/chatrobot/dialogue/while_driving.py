@@ -14,7 +14,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.driven import asks_what_is_left, calls_it_wrong, rescaled
+from chatrobot.language.driven import rescaled, says
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import render_reason, say
@@ -52,14 +52,14 @@ class WhileDriving:
         motion = self._motion()
         if motion is None:
             return False
-        asks = asks_what_is_left(text, self._understanding.context)
+        asks = says("left", text, self._understanding.context)
         return asks or self._changed(motion, text) is not None or self._forbids(text)
 
     def _forbids(self, text: str) -> bool:
         """Return whether all that `text` says, while the robot is on its way, is against that."""
         if self._resuming.paused is not None:
             return False
-        is_wrong = calls_it_wrong(text, self._understanding.context)
+        is_wrong = says("wrong", text, self._understanding.context)
         return is_wrong or self._understanding.would_mean(text).code in ("only_forbidden", "taken_back")
 
     def answer(self, text: str) -> Interpretation | None:
@@ -67,7 +67,7 @@ class WhileDriving:
         motion = self._motion()
         if motion is None:
             return None
-        if asks_what_is_left(text, self._understanding.context):
+        if says("left", text, self._understanding.context):
             return self._left(text)
         changed = self._changed(motion, text)
         if changed is None:

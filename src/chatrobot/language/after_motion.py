@@ -28,6 +28,8 @@ from chatrobot.language.undo import FAR_RAD
 from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
 
 _SHOWN = 60
+_OTHERS = "{others}"
+"""Stands in a reading for how many steps the last motion has beside one."""
 _PACES = frozenset({"speed", "time", "rate"})
 _SIZES = frozenset({"length", "angle", "turns", "number", "time", "count", "speed"})
 
@@ -48,7 +50,7 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
             if rule.is_in(plain) and is_so(dialogue):
                 if not rule.said:
                     raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
-                plain = rule.applied(plain)
+                plain = rule.applied(plain).replace(_OTHERS, str(len(_steps(dialogue.last_motion)) - 1))
     plain = _of_total(plain, language, dialogue)
     if _rules(language, "means", "again").any_in(plain):
         return plain, replace(context, dialogue=as_put_right(dialogue))
@@ -272,9 +274,6 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "off_line": lambda dialogue: _not_straight(dialogue) or _is_slide(dialogue),
     "turned": _has_turned,
     "eight": lambda dialogue: len(_steps(dialogue.last_motion)) > 1 and _only(Arc)(dialogue),
-    "of_two": lambda dialogue: len(_steps(dialogue.last_motion)) == 2,
-    "of_three": lambda dialogue: len(_steps(dialogue.last_motion)) == 3,
-    "of_four": lambda dialogue: len(_steps(dialogue.last_motion)) == 4,
     "sequence": lambda dialogue: len(_steps(dialogue.last_motion)) > 1,
     "aside": _looks_aside,
     "just": lambda dialogue: dialogue.turns[-1].plan is not None,

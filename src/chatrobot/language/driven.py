@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import Literal
 
 from chatrobot.language.acts import order_log_odds, read_acts
 from chatrobot.language.answers import with_manner
@@ -43,16 +44,10 @@ def rescaled(
     return after, scaling
 
 
-def asks_what_is_left(text: str, context: Context) -> bool:
-    """Whether `text` asks how far the plan is, what comes next or where it leads: `how much longer?`."""
+def says(what: Literal["left", "wrong"], text: str, context: Context) -> bool:
+    """Whether `text` asks what is `left` (`how much longer?`), or calls the way `wrong` (`not that way!`)."""
     language, text = in_known_words(text, context)
-    return form(language, "driven", "left").search(normalise(text)) is not None
-
-
-def calls_it_wrong(text: str, context: Context) -> bool:
-    """Whether `text` says that the robot goes where it should not: `not that way!`."""
-    language, text = in_known_words(text, context)
-    return form(language, "driven", "wrong").search(normalise(text)) is not None
+    return form(language, "driven", what).search(normalise(text)) is not None
 
 
 def _with_manner(plan: Plan, plain: str, reading: Reading) -> Plan | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from dataclasses import replace
 
 from chatrobot.language import forms
@@ -21,13 +20,11 @@ from chatrobot.language.phrases import say
 from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_remembering
 from chatrobot.language.selection_forms import speed_for_all
-from chatrobot.language.things import check_counted
+from chatrobot.language.things import MARK, check_counted
 from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.usual import read_usual
 from chatrobot.plan.steps import Arc, Drive, Plan
-
-_MARK = re.compile(r"[;，；。]|(?<!\d)[,.]|[,.](?!\d)")
 
 
 def read_in_words(plain: str, reading: Reading) -> Interpretation:
@@ -60,7 +57,7 @@ def read_in_words(plain: str, reading: Reading) -> Interpretation:
 
 def _set_and_done(plain: str, reading: Reading) -> Interpretation | None:
     """What is set from now on and what is done under it: `from now on at 0.2 m/s. Forward 1 m`; else None."""
-    for mark in _MARK.finditer(plain):
+    for mark in MARK.finditer(plain):
         with contextlib.suppress(Unclear):
             told = read_command(plain[: mark.start()], reading)
             if told.outcome != "answered" or told.usual == Usual():

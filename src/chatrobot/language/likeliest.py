@@ -79,12 +79,11 @@ def likeliest(
 
 def _beside_goals(plain: str, problem: Unclear, reading: Reading, read: Reader) -> Interpretation | None:
     """The order, proposed, whose amount leads to what nobody knows: `go 2 m to the copier`."""
-    names = names_in(reading.context)
     left = without_goals(plain, reading.language) if problem.code == "unknown_part" else ""
-    if left and order_log_odds(read_acts(plain, names)) < ORDER:
+    if not left or order_log_odds(read_acts(plain, names_in(reading.context))) < ORDER:
         return None
     try:
-        return proposed(read(left), reading.language, (problem.part,)) if left else None
+        return proposed(read(left), reading.language, (problem.part,))
     except Unclear:
         return None
 

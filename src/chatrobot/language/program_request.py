@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -120,29 +120,29 @@ def read_request(text: str, *, is_asked_for: bool = False) -> ProgramRequest | N
 
 def read_program_name(text: str, names: Iterable[str]) -> str | None:
     """Which of the kept programs `text` asks to run ("do the square dance again"); None where it asks for none."""
-    plain = " ".join(normalise(text).split())
     known = {_key(name): name for name in names}
-    for tables in _tables():
-        for pattern in ("again", "again_weak"):
-            found = tables.wording[pattern].match(plain)
-            if found is not None and _key(found["name"]) in known:
-                return known[_key(found["name"])]
-    return None
+    return next((known[said] for said, _ in _asked_to_run(text) if said in known), None)
 
 
 def read_changed_program(text: str, names: Iterable[str]) -> str | None:
     """Which of the kept programs `text` asks to run otherwise than it is: `run the triangle twice`; else None."""
-    plain = " ".join(normalise(text).split())
     known = sorted(names, key=len, reverse=True)
+    for said, tables in _asked_to_run(text):
+        for name in known:
+            tail = said.removeprefix(_key(name)).strip()
+            if said.startswith(_key(name)) and tables.wording["changed"].match(tail):
+                return name
+    return None
+
+
+def _asked_to_run(text: str) -> Iterator[tuple[str, _Tables]]:
+    """What `text` may ask to run, with the tables that read it so."""
+    plain = " ".join(normalise(text).split())
     for tables in _tables():
         for pattern in ("again", "again_weak"):
             found = tables.wording[pattern].match(plain)
-            said = _key(found["name"]) if found is not None else ""
-            for name in known:
-                tail = said.removeprefix(_key(name)).strip()
-                if said.startswith(_key(name)) and tables.wording["changed"].match(tail):
-                    return name
-    return None
+            if found is not None:
+                yield _key(found["name"]), tables
 
 
 def asks_about_programs(text: str) -> str:

@@ -94,9 +94,14 @@ def _is(clause: Clause, plain: str, name: str, language: str) -> bool:
 
 def without_goals(plain: str, language: str) -> str:
     """A normalised text without what an amount is driven to, from or along: `go 2 m to the copier`; else ``""``."""
-    table = load_table(language, "set_off")
-    left = rules(f"goals_{language}", table.get("goals", ()), table["parts"]).applied(plain)
+    left = _goals(language).applied(plain)
     return left if left != plain else ""
+
+
+@cache
+def _goals(language: str) -> Rules:
+    table = load_table(language, "set_off")
+    return rules(f"goals_{language}", table.get("goals", ()), table["parts"])
 
 
 @cache

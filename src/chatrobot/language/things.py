@@ -26,7 +26,7 @@ from chatrobot.language.unclear import Unclear
 
 _GAP = "\t"
 """Stands where a gap was told: no text has it."""
-_MARK = re.compile(r"[;!?:，。；！？\n]|(?<!\d)[,.]|[,.](?!\d)")
+MARK = re.compile(r"[;!?:，。；！？\n]|(?<!\d)[,.]|[,.](?!\d)")
 _STOP = re.compile(r"[;!?\n。；！？]|\.(?!\d)")
 _PASSED = frozenset({"glue", "num", "filler"})
 _NOUNS = frozenset({"filler", "glue", "verb"})
@@ -207,7 +207,7 @@ def _is_ordered(text: str, found: re.Match[str], language: str) -> bool:
 def _is_barred(text: str, found: re.Match[str] | None, language: str) -> bool:
     """Whether the clause that it stands in denies, asks, depends on something or tells of before."""
     start, stop = found.span() if found is not None else (0, len(text))
-    begins = max((mark.end() for mark in _MARK.finditer(text, 0, start)), default=0)
+    begins = max((mark.end() for mark in MARK.finditer(text, 0, start)), default=0)
     return _search("barred", "", text[begins:stop], language) is not None
 
 

@@ -86,15 +86,9 @@ class Authoring:
         """Return the kept program that `text` asks to run, with the arguments behind a `--`; None where it asks none.
 
         Raises:
-            NotWrittenError: it cannot be given those arguments, or is to run otherwise than it is; or `text` asks about
-                programs, and that is the answer.
+            NotWrittenError: it cannot be given those arguments, or is to run otherwise than it is.
         """
         names = self.library.names()
-        about = asks_about_programs(text)
-        if about:
-            kept = say(language, "programs_named", names=", ".join(names)) if names else ""
-            code = "programs_managed" if about == "managed" else "program_offer"
-            raise NotWrittenError("answered", say(language, code, kept=kept).strip())
         if not names:
             return None
         said, _, command_line = text.partition(" -- ")
@@ -109,6 +103,14 @@ class Authoring:
         except ValueError as error:
             reason = Reason("program_arguments", {"problem": str(error)})
             raise NotWrittenError("refused", render_reason(reason, language)) from error
+
+    def told(self, text: str, language: str) -> str:
+        """Return the answer to a question about programs; an empty string where `text` asks none."""
+        about, names = asks_about_programs(text), self.library.names()
+        if not about:
+            return ""
+        kept = say(language, "programs_named", names=", ".join(names)) if names else ""
+        return say(language, "programs_managed" if about == "managed" else "program_offer", kept=kept).strip()
 
     def draft_of(self, program: KeptProgram) -> Draft:
         """Return the draft of a program that is there already."""

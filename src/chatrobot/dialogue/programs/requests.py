@@ -12,6 +12,7 @@ from chatrobot.core.events import (
     Finished,
     Interpreted,
     Notice,
+    Outcome,
     ProgramRehearsed,
     Rehearsed,
     Started,
@@ -153,6 +154,10 @@ class ProgramRequests:
     def begin(self, turn: int, text: str, *, is_asked_for: bool = False, name: str = "") -> bool:
         """Take the turn if it is about a program; `name` is what it is to be called."""
         language = self._understanding.language_of(text)
+        told = "" if is_asked_for else self.authoring.told(text, language)
+        if told:
+            self._tell(turn, text, Interpretation("answered", told, language))
+            return True
         try:
             draft = None if is_asked_for else self.authoring.kept(text, language)
         except NotWrittenError as refusal:
@@ -180,11 +185,13 @@ class ProgramRequests:
             yield from self._run(turn, text, draft)
 
     def _refuse(self, turn: int, text: str, refusal: NotWrittenError, language: LanguageCode) -> None:
-        self._emit(Interpreted(turn, "offline", "", refusal.reply))
-        outcomes: dict[str, Literal["unclear", "answered"]] = {"unclear": "unclear", "answered": "answered"}
-        meant = Interpretation(outcomes.get(refusal.outcome, "refused"), refusal.reply, language)
+        outcome: Literal["unclear", "refused"] = "unclear" if refusal.outcome == "unclear" else "refused"
+        self._tell(turn, text, Interpretation(outcome, refusal.reply, language), refusal.outcome)
+
+    def _tell(self, turn: int, text: str, meant: Interpretation, outcome: Outcome = "answered") -> None:
+        self._emit(Interpreted(turn, "offline", "", meant.reply))
         self._understanding.note_unmoved(text, meant)
-        self._requests.conclude(turn, refusal.outcome, refusal.reply)
+        self._requests.conclude(turn, outcome, meant.reply)
 
     def run(self, turn: int, text: str, draft: Draft) -> None:
         """Have Motion rehearse and run it, as soon as it can be read at all."""
