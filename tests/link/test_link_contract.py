@@ -135,6 +135,39 @@ def test_a_plan_under_way_goes_on_at_another_speed_on_its_path(rig: LinkRig) -> 
     assert end.duration_s == pytest.approx(5.0, abs=0.7)
 
 
+def test_one_turn_that_waits_is_cancelled_or_changed_and_the_others_go_on(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 0.3 m")
+    send_plan(rig, 2, "drive 3 m")
+    send_plan(rig, 3, "drive 2 m")
+    send_plan(rig, 4, "drive 0.1 m back")
+    moving(rig, 1)
+    rig.link.send("cancel", 2)
+    send_plan(rig, 5, "drive 0.2 m", instead_of=3)
+    ends = [finished(rig, turn) for turn in (2, 3, 1, 5, 4)]
+    outcomes = [(end.outcome, end.reason.code if end.reason is not None else "") for end in ends]
+    assert outcomes == [
+        ("stopped", "canceled"),
+        ("stopped", "order_changed"),
+        ("completed", ""),
+        ("completed", ""),
+        ("completed", ""),
+    ]
+    assert ends[-1].pose.x_m == pytest.approx(0.4, abs=0.02)
+
+
+def test_a_turn_that_has_begun_is_stopped_by_a_cancel_and_gives_its_place_to_none(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 5 m")
+    moving(rig, 1)
+    send_plan(rig, 2, "drive 4 m", instead_of=1)
+    late = finished(rig, 2)
+    assert (late.outcome, late.reason and late.reason.code) == ("refused", "begun_meanwhile")
+    rig.link.send("cancel", 1)
+    end = finished(rig, 1)
+    assert (end.outcome, end.reason and end.reason.code) == ("stopped", "canceled")
+    assert end.path_m < 4.0
+    assert is_at_rest(rig)
+
+
 def test_a_full_queue_refuses_rather_than_forgets(rig: LinkRig) -> None:
     send_plan(rig, 1, "wait 1000 s")
     for turn in range(2, 13):

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from chatrobot.core.errors import PlanTextError
 from chatrobot.core.events import Event, Interpreted, Notice, Paused
 from chatrobot.core.reason import Reason
+from chatrobot.dialogue.amending import Amending
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.question import Proposals
-from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting
+from chatrobot.dialogue.replies import AFTER_GOODBYE, describe_waiting, parting, told_at_console
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
@@ -27,16 +27,6 @@ from chatrobot.link.envelope import MOST_CHARACTERS, OBSTACLE_RADIUS_M
 from chatrobot.link.motion_link import MotionLink
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import format_plan, parse_plan
-from chatrobot.reflex import is_release
-
-_COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
-
-
-def _of_the_console(text: str) -> str:
-    """Return the phrase that answers what is typed at the terminal console, "" for anything else."""
-    if is_release(text):
-        return "release_by_command"
-    return "command_of_console" if _COMMAND.match(text) else ""
 
 
 @dataclass(eq=False)
@@ -60,6 +50,7 @@ class Dispatch:
     _llm: ModelRequests
     _programs: ProgramRequests | None
     _while_driving: WhileDriving
+    _amending: Amending
     _emit: Callable[[Event], None]
     _stop: Callable[[str], None]
     _hears_robot_soon: Callable[[], bool]
@@ -195,8 +186,24 @@ class Dispatch:
         """Whether it says to go on with what is paused, and something beside it."""
         return self._resuming.paused is not None and goes_on_beside(utterance.text)
 
+    def _amends(self, utterance: Utterance) -> bool:
+        """Whether `utterance` changes what is still to be done: then that is done."""
+        amendment = self._amending.of(utterance)
+        if amendment is None:
+            return False
+        if amendment.meant is None:
+            self._end_turn_before(utterance)
+            return True
+        for turn in amendment.cancels:
+            self._goals.cancel(turn)
+        self._act_on(utterance, amendment.meant, amendment.instead_of)
+        return True
+
     def _understand(self, utterance: Utterance) -> None:
-        if self._requests.is_any_with_motion and self._changes_speed(utterance):
+        if self._changes_speed(utterance) or self._amends(utterance):
+            return
+        if (stop := self._while_driving.stop(utterance.text)) is not None:
+            self._act_on(utterance, stop)
             return
         if self._programs is not None and self._programs.begin(utterance.turn, utterance.text):
             return
@@ -205,7 +212,7 @@ class Dispatch:
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
         meant = self._understanding.interpret(utterance.text, self._requests.under_way)
-        if meant.outcome == "unclear" and (code := _of_the_console(utterance.text)):  # no model guesses at it
+        if meant.outcome == "unclear" and (code := told_at_console(utterance.text)):  # no model guesses at it
             reply = self._understanding.say(code, utterance.text, command=utterance.text.split()[0])
             self._act_on(utterance, Interpretation("refused", reply, self._understanding.language))
             return
@@ -243,8 +250,8 @@ class Dispatch:
         self._llm.replace()
         self._link.send("stop", utterance.turn - 1, why=utterance.text[:80])
 
-    def _act_on(self, utterance: Utterance, meant: Interpretation) -> None:
-        """Do what was understood without a model."""
+    def _act_on(self, utterance: Utterance, meant: Interpretation, instead_of: int | None = None) -> None:
+        """Do what was understood without a model, in the place of a turn that waits."""
         paused = self._resuming.paused
         if paused is not None and self._understanding.tells_it_stands(meant):
             meant = replace(meant, reply=self._told("paused_now", paused))
@@ -262,7 +269,7 @@ class Dispatch:
                 told = say(meant.language, "after_that", plan=meant.reply)
                 interpreted = replace(interpreted, reply=told)
             # Before it is told: telling takes longer than the way to Motion.
-            self._send_plan(utterance, meant, plan_text)
+            self._send_plan(utterance, meant, plan_text, instead_of)
             self._understanding.close_question()
             self._emit(interpreted)
             return
@@ -328,11 +335,14 @@ class Dispatch:
             self._emit(Notice(utterance.turn, Reason("edit_unreadable", {"problem": str(error)})))
             return before
 
-    def _send_plan(self, utterance: Utterance, meant: Interpretation, plan_text: str) -> None:
+    def _send_plan(
+        self, utterance: Utterance, meant: Interpretation, plan_text: str, instead_of: int | None
+    ) -> None:
         mode = "append" if meant.append else self._goals.mode
         if mode == "replace":
             self._llm.replace()
         if mode == "append" and self._resuming.paused is not None:
             self._emit(Notice(utterance.turn, Reason("waits_behind_pause")))
-        self._requests.track(utterance.turn, utterance.text, meant)
-        self._goals.plan(utterance.turn, plan_text, mode, asks=utterance.kind == "edited_plan")
+        self._requests.track(utterance.turn, utterance.text, meant, instead_of)
+        asks = utterance.kind == "edited_plan"
+        self._goals.plan(utterance.turn, plan_text, mode, asks=asks, instead_of=instead_of)

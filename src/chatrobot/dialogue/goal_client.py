@@ -40,11 +40,27 @@ class GoalClient:
         """Have Motion go on at another speed with a plan that it has."""
         self._link.send("rescale", turn, **vars(scaling))
 
+    def cancel(self, turn: int) -> None:
+        """Have Motion end that turn alone."""
+        self._link.send("cancel", turn)
+
     def plan(
-        self, turn: int, plan_text: str, mode: Literal["queue", "replace", "append"], *, asks: bool = False
+        self,
+        turn: int,
+        plan_text: str,
+        mode: Literal["queue", "replace", "append"],
+        *,
+        asks: bool = False,
+        instead_of: int | None = None,
     ) -> None:
-        """Have Motion rehearse and drive a plan. `asks`: it waits for a yes whatever the options."""
-        self._send("plan", turn, asks, mode=mode, plan_text=plan_text)
+        """Have Motion rehearse and drive a plan.
+
+        Args:
+            asks: it waits for a yes whatever the options.
+            instead_of: the turn whose place it takes; it is refused where that waits no more.
+        """
+        place = {} if instead_of is None else {"instead_of": instead_of}
+        self._send("plan", turn, asks, mode=mode, plan_text=plan_text, **place)
 
     def program(
         self,
@@ -93,6 +109,11 @@ class RequestLog:
         return bool(self._with_motion)
 
     @property
+    def numbered(self) -> tuple[tuple[int, Instruction], ...]:
+        """Return what Motion has, each with the number of its turn, in the order it was said."""
+        return tuple(self._with_motion.items())
+
+    @property
     def under_way(self) -> tuple[Instruction, ...]:
         """Return what Motion has, in the order it was said."""
         return tuple(self._with_motion.values())
@@ -110,9 +131,12 @@ class RequestLog:
         """Return whether that turn is with Motion."""
         return turn in self._with_motion
 
-    def track(self, turn: int, text: str, meant: Interpretation) -> None:
-        """Note that Motion has that turn; its `finished` ends it."""
+    def track(self, turn: int, text: str, meant: Interpretation, instead_of: int | None = None) -> None:
+        """Note that Motion has that turn, in the place of another one; its `finished` ends it."""
+        before = list(self._with_motion)
+        at = before.index(instead_of) + 1 if instead_of in self._with_motion else len(before)
         self._with_motion[turn] = Instruction(text, meant, self._understanding.pose)
+        self._with_motion = {each: self._with_motion[each] for each in (*before[:at], turn, *before[at:])}
 
     def rescale(self, turn: int, scaling: SpeedScaling) -> None:
         """Note that Motion goes on at another speed with the plan of that turn."""

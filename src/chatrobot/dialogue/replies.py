@@ -15,6 +15,7 @@ from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import describe_plan, describe_steps, describe_text, render_reason, say
 from chatrobot.plan.steps import Face, Go, RawTwist, Step
 from chatrobot.plan.text import parse_plan
+from chatrobot.reflex import is_release
 
 if TYPE_CHECKING:
     from chatrobot.dialogue.llm.terms import Ended
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
 
 SHOWN_CHARS = 60
 """A text that is quoted is shortened to this."""
+_COMMAND = re.compile(r"/[a-z][a-z-]*\b(?!/)", re.IGNORECASE)
 
+_WAITED = ("canceled", "order_changed")
+"""Why an order that waited is not done, while what runs goes on."""
 _STOPPED_TWICE = re.compile(r"([.?!。？！])[.。]")
 """A reason that is a sentence of its own has its full stop, or its question mark, already."""
 
@@ -37,6 +41,8 @@ def describe_end(finished: Finished, language: str, steps: Sequence[Step] = ()) 
         heading, slowed = _heading_there(finished, steps, language), _slowed(finished, language)
         return " ".join(filter(None, (done, heading, slowed)))
     reason = _why(finished.reason, language)
+    if not moved and finished.reason is not None and finished.reason.code in _WAITED:
+        return say(language, "not_begun", reason=reason)
     if finished.outcome == "refused":
         refused = " ".join(filter(None, (reason, _free(finished.reason, language))))
         has_moved = moved and finished.path_m
@@ -210,3 +216,10 @@ def parting(meant: Interpretation) -> Reason | None:
 def is_parting(event: Event) -> bool:
     """Return whether the person has said goodbye, and has been answered."""
     return isinstance(event, Result) and event.reason is not None and event.reason.code == PARTING
+
+
+def told_at_console(text: str) -> str:
+    """Return the phrase that answers what is typed at the terminal console, "" for anything else."""
+    if is_release(text):
+        return "release_by_command"
+    return "command_of_console" if _COMMAND.match(text) else ""

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot.core.event import Proposal
-from chatrobot.core.events import Event, Finished, Paused, Progress, Started
+from chatrobot.core.events import Event, Finished, Paused, Progress, Rehearsed, Started
 from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.replies import describe_left
@@ -90,8 +90,10 @@ class Resuming:
 
     def __init__(self, understanding: Understanding) -> None:
         self._understanding = understanding
-        self._rest = ""
+        self.rest = ""
+        """Plan text of what was left of the plan that was stopped last, as measured."""
         self._was_stopped = False
+        self._stopped_by: Reason | None = None
         self.ended_by = Reason("cause_unknown")
         """Why the plan that was paused last is not gone on with."""
         self.paused: Paused | None = None
@@ -107,8 +109,17 @@ class Resuming:
             if self.paused is not None and self.paused.turn == event.turn:
                 self.paused = None
                 self.ended_by = event.reason or Reason("cause_unknown")
-            self._was_stopped = event.outcome == "stopped"
-            self._rest = event.remaining if event.outcome == "stopped" else ""
+            self._note_rest(event)
+        elif isinstance(event, Rehearsed):
+            self._stopped_by = None
+
+    def _note_rest(self, event: Finished) -> None:
+        """Note what is left; what waited behind what one stop ended is left after it."""
+        self._was_stopped = event.outcome == "stopped"
+        waited = self._was_stopped and self._stopped_by is not None and event.reason == self._stopped_by
+        left = event.remaining if self._was_stopped else ""
+        self.rest = "\n".join(filter(None, (self.rest if waited else "", left)))
+        self._stopped_by = event.reason if self._was_stopped else None
 
     @property
     def is_about_this(self) -> bool:
@@ -122,13 +133,13 @@ class Resuming:
 
     def offer(self) -> Interpretation | None:
         """Ask whether to drive what is left of the plan that was stopped last; None where nothing is."""
-        if not self._rest:
+        if not self.rest:
             return None
         language = self._understanding.language
-        rest = describe_text(self._rest, language)
+        rest = describe_text(self.rest, language)
         ask = say(language, "ask_rest", plan=rest)
         reply = f"{say(language, 'was_stopped')} {ask}"
-        return Interpretation("unclear", reply, language, code="ask_rest", proposal=Proposal(self._rest, ask))
+        return Interpretation("unclear", reply, language, code="ask_rest", proposal=Proposal(self.rest, ask))
 
     def more(self, meant: Interpretation, *, is_under_way: bool) -> Interpretation:
         """Read “keep going” where nothing was paused or stopped: `meant`, in the direction of the drive before it.

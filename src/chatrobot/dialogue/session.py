@@ -16,6 +16,7 @@ from chatrobot.core.events import Event, Finished, Notice, Paused, Remembered, R
 from chatrobot.core.geometry import Twist
 from chatrobot.core.reason import Reason
 from chatrobot.core.sensed_events import ObstacleChanged
+from chatrobot.dialogue.amending import Amending
 from chatrobot.dialogue.dispatch import Dispatch
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
 from chatrobot.dialogue.llm.requests import ModelRequests
@@ -75,7 +76,7 @@ class Session:
         )  # fmt: skip
         driving = WhileDriving(self._goals, understanding, log, self._resuming)
         early = EarlyAnswers(understanding, self._llm, log, authoring, driving)
-        awaits = self._proposals.awaits
+        awaits, amending = self._proposals.awaits, Amending(self._goals, understanding, log, self._resuming)
         self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early, awaits)
         self._programs: ProgramRequests | None = None
         self._steered_at_s = -math.inf
@@ -86,7 +87,7 @@ class Session:
             self._llm.writer = self._programs
         self._dispatch = Dispatch(
             link, self._goals, waiting, understanding, log, self._proposals, self._resuming, self._llm,
-            self._programs, driving, self._emit, self.stop, self._hears_robot_soon,
+            self._programs, driving, amending, self._emit, self.stop, self._hears_robot_soon,
         )  # fmt: skip
 
     @property

@@ -97,10 +97,8 @@ class Understanding:
 
     def interpret(self, text: str, under_way: Sequence[Instruction] = ()) -> Interpretation:
         """Return what `text` means now. Instructions that are under way are read as turns before."""
-        turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
-        dialogue = replace(self._dialogue, turns=turns, places=self.places.all())
-        self._last = (text, self._context(dialogue))
-        meant = self._read(*self._last)
+        self._last = (text, self.context(under_way))
+        meant = self.read(*self._last)
         self.language = meant.language
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
             code = UNHEARD if self.is_measured else "answer_unmeasured"
@@ -123,11 +121,17 @@ class Understanding:
         known = (self.world_places, without_heading, self._names, ways.any, ways.ring, ways.along)
         return Context(dialogue, self._state, *known, self.language)
 
+    def context(self, under_way: Sequence[Instruction] = ()) -> Context:
+        """Return what is known now, to read a text by, with these as turns before."""
+        turns = (*self._dialogue.turns, *map(self._as_if_done, under_way))
+        return self._context(replace(self._dialogue, turns=turns, places=self.places.all()))
+
     def would_mean(self, text: str) -> Interpretation:
         """Return what `text` would mean if it were said now. From any thread: nothing is noted."""
-        return self._read(text, self.context)
+        return self.read(text, self.context())
 
-    def _read(self, text: str, context: Context) -> Interpretation:
+    def read(self, text: str, context: Context) -> Interpretation:
+        """Return what `text` means in that context; nothing is noted."""
         try:
             return self._interpreter.interpret(text, context)
         except Exception as error:  # a fault in reading one text ends no session, and is told
@@ -200,12 +204,7 @@ class Understanding:
 
     def amended(self, plan: Plan, said: str) -> Plan | None:
         """Return the plan with what `said` changes of it; None where that says anything else."""
-        return self._interpreter.amended(plan, said, self.context)
-
-    @property
-    def context(self) -> Context:
-        """Return what is known now, to read a text by."""
-        return self._context(replace(self._dialogue, places=self.places.all()))
+        return self._interpreter.amended(plan, said, self.context())
 
     @property
     def limit_mps(self) -> float | None:

@@ -252,7 +252,8 @@ class NextUtterance:
                 if not options.answers_in_turn and self._early.is_about_motion(utterance):
                     return utterance
                 answers = (one for one in waiting[number:] if self._awaits(one))
-                return next(answers, None) or self._early.find(waiting[number:])
+                early = self._early.find(waiting[number:]) if utterance.turn != waiting_turn else None
+                return next(answers, None) or early
             if not self._llm.is_busy or self._overtakes(utterance):
                 return utterance
         return None

@@ -52,28 +52,26 @@ class WhileDriving:
         motion = self._motion()
         if motion is None:
             return False
-        asks = says("left", text, self._understanding.context)
+        asks = says("left", text, self._understanding.context())
         return asks or self._changed(motion, text) is not None or self._forbids(text)
 
     def _forbids(self, text: str) -> bool:
         """Return whether all that `text` says, while the robot is on its way, is against that."""
         if self._resuming.paused is not None:
             return False
-        is_wrong = says("wrong", text, self._understanding.context)
+        is_wrong = says("wrong", text, self._understanding.context())
         return is_wrong or self._understanding.would_mean(text).code in ("only_forbidden", "taken_back")
 
     def answer(self, text: str) -> Interpretation | None:
-        """Do what `text` says of the motion, or return the stop that it asks for; None where it says anything else."""
+        """Do what `text` says of the speed of the motion, or tell what is left; None where it says anything else."""
         motion = self._motion()
         if motion is None:
             return None
-        if says("left", text, self._understanding.context):
+        if says("left", text, self._understanding.context()):
             return self._left(text)
         changed = self._changed(motion, text)
         if changed is None:
-            language = self._understanding.language
-            stopped = Interpretation("stop", say(language, self._understanding.stop_code()), language)
-            return stopped if self._forbids(text) else None
+            return None
         asked, scaling = changed
         self._understanding.hear_language(text)
         refusal = self._refusal(motion.plan, asked, scaling)
@@ -89,6 +87,13 @@ class WhileDriving:
             return self._told("paused_now", after.steps)
         return self._told("goes_on", self._resuming.under_way.left(motion.turn, after.steps))
 
+    def stop(self, text: str) -> Interpretation | None:
+        """Return the stop that `text` is, where it is against what is driven."""
+        if self._motion() is None or not self._forbids(text):
+            return None
+        language = self._understanding.language
+        return Interpretation("stop", say(language, self._understanding.stop_code()), language)
+
     def _motion(self) -> _Motion | None:
         """What is driven or paused; None where there is nothing, or it has not set out."""
         running = self._requests.first_with_motion
@@ -103,7 +108,7 @@ class WhileDriving:
     def _changed(self, motion: _Motion, text: str) -> tuple[Plan, SpeedScaling] | None:
         """The plan at the speed that `text` says, and what makes it of the one before; None for any other text."""
         understanding = self._understanding
-        return rescaled(motion.plan, text, motion.step_number, understanding.context, understanding.profile)
+        return rescaled(motion.plan, text, motion.step_number, understanding.context(), understanding.profile)
 
     def _left(self, text: str) -> Interpretation:
         self._understanding.hear_language(text)
@@ -119,11 +124,12 @@ class WhileDriving:
         return Interpretation("answered", say(language, code, plan=plan), language)
 
     def told(self, language: str) -> str:
-        """Return the motion that runs and what is left of it; an empty string where no plan of ours runs."""
+        """Return the motion that runs, what is left of it and what waits; "" where no plan of ours runs."""
         running = self._requests.first_with_motion
         if running is None or running[1].meant.plan is None:
             return ""
-        turn, steps = running[0], running[1].meant.plan.steps
+        turn, plans = running[0], [one.meant.plan for one in self._requests.under_way]
+        steps = [step for plan in plans if plan is not None for step in plan.steps]
         return self._resuming.under_way.told(turn, steps, language, self._understanding.speed_mps)
 
     def beside(self, meant: Interpretation) -> Interpretation:

@@ -1,7 +1,9 @@
-"""What is said of a plan while it is driven: of its speed, and of what is left of it."""
+"""What is said of a plan before it is done: of its speed and its steps, and of what is left of it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import Literal
 
@@ -11,14 +13,16 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.glossed import in_known_words
 from chatrobot.language.held import is_no_order, names_part
+from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.normalise import normalise
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
 from chatrobot.language.rules import Rules, form, rules
 from chatrobot.language.speed_limit import bounded, plan_within, without_limit
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
-from chatrobot.plan.steps import Plan
+from chatrobot.plan.steps import Plan, Step
 from chatrobot.robots.profile import RobotProfile
 
 
@@ -44,10 +48,34 @@ def rescaled(
     return after, scaling
 
 
-def says(what: Literal["left", "wrong"], text: str, context: Context) -> bool:
-    """Whether `text` asks what is `left` (`how much longer?`), or calls the way `wrong` (`not that way!`)."""
+def says(what: Literal["left", "wrong", "no_more", "last_not"], text: str, context: Context) -> bool:
+    """Whether `text` asks what is `left` (`how much longer?`), or calls the way `wrong` (`not that way!`).
+
+    Or wants `no_more` than the step under way (`finish this and stop`), or what was said last not (`skip that one`).
+    """
     language, text = in_known_words(text, context)
     return form(language, "driven", what).search(normalise(text)) is not None
+
+
+def changed(
+    plan: Plan, said: str, after: Context, read: Callable[[str, Context], Interpretation]
+) -> list[Step] | None:
+    """The steps of a plan that is not done yet with what is `said` of them, repeats counted out; None for no change.
+
+    It is read as of a plan that waits for a `go`, unless it is an order of its own. No step where it takes all out.
+
+    Args:
+        after: what is known once the plan is done.
+    """
+    alone = replace(after.dialogue, turns=(), pending="", offered=None, held=None)
+    is_own = read(said, replace(after, dialogue=alone)).plan is not None
+    if is_own and not read(said, after).corrects:
+        return None
+    meant = read(said, replace(after, dialogue=replace(alone, turns=after.dialogue.turns, held=plan)))
+    if meant.code == "all_left_out":
+        return []
+    new = meant.held_plan if meant.code == "held" else None
+    return list(expanded(new.steps)) if new is not None and new != plan else None
 
 
 def _with_manner(plan: Plan, plain: str, reading: Reading) -> Plan | None:

@@ -114,7 +114,7 @@ def changed_in_part(plain: str, plan: Plan, reading: Reading, read_anew: ReadAne
             at = _chosen(found, steps, plain, reading.language)
             kept = [step for i, step in enumerate(steps) if (i in at) == (name == "only")]
             if not kept:
-                raise Unclear("unclear_motion", plain[:60])
+                raise Unclear("all_left_out", plain[:60])
             return kept
     found = _said("added", plain, reading)
     ways = (

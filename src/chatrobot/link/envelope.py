@@ -12,7 +12,7 @@ from chatrobot.core.reason import Reason
 from chatrobot.programs.ros_args import MOST_ARGS, MOST_CHARS
 from chatrobot.robots.profile import read_limit
 
-PROTOCOL = 3
+PROTOCOL = 4
 """What both halves have to agree on, in the greeting of each. Another number where one half could misunderstand the
 other; a stop is understood by all of them. Halves that say none are of release 0.1, and have number 1."""
 
@@ -23,7 +23,9 @@ Word = Literal[
     # {…, "age_s"}: keeps it; any word that names its term opens it for a Motion that came after the hello. `age_s`: how
     # long ago whoever gave the order was heard, where that is somebody else
     "beat",
-    "plan",  # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …}
+    # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …, "instead_of": turn}:
+    # `instead_of` is a turn that still has to wait, and is not done; where it waits no more, the plan is refused
+    "plan",
     "look",  # asks for a `looked` event of this turn
     "watch",  # {"scans": bool}: a display wants `scan` events, or no more
     # {"vx_mps", "vy_mps", "wz_radps"}: a person's stick as it is held now, said anew many times a second while it is;
@@ -37,6 +39,7 @@ Word = Literal[
     "resume",  # {}: go on with the plan of this turn, which was paused
     # {"linear_factor", "angular_factor"}: go on with the plan of this turn so many times as fast
     "rescale",
+    "cancel",  # {}: end the plan or program of this turn; others, running or queued, go on
     "emergency_stop",
     "release",
     "limit",  # {"max_distance_m", "max_time_s": number or "none"}; changes the motion budget, empty: asks for it
@@ -153,7 +156,13 @@ _GOAL: Mapping[str, _Check] = {
 PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
     "hello": _GREETING,
     "beat": {**_GREETING, "age_s": _seconds(with_zero=True)},
-    "plan": {**_GOAL, "plan_text": _text(), "more": _is_flag, "longest_s": _seconds(with_zero=False)},
+    "plan": {
+        **_GOAL,
+        "plan_text": _text(),
+        "more": _is_flag,
+        "longest_s": _seconds(with_zero=False),
+        "instead_of": _is_count,
+    },
     "look": {},
     "watch": {"scans": _is_flag},
     "steer": {"vx_mps": _is_speed, "vy_mps": _is_speed, "wz_radps": _is_speed},
@@ -171,6 +180,7 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
     "stop": {"why": _text(), "keep": _is_flag},
     "resume": {},
     "rescale": {"linear_factor": _is_factor, "angular_factor": _is_factor},
+    "cancel": {},
     "emergency_stop": {"why": _text()},
     "release": {},
     "limit": {"max_distance_m": _is_limit, "max_time_s": _is_limit},

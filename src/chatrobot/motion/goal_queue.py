@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 from typing import TypeVar
 
@@ -79,6 +79,18 @@ class GoalQueue:
             self.goals.remove(goal)
         return taken
 
+    def take_turn(self, lease: str, turn: int) -> list[Goal]:
+        """Remove and return what waits of that turn."""
+        return self.take([goal for goal in self.goals if (goal.lease, goal.turn) == (lease, turn)])
+
+    def put_instead(self, goal: Goal, turn: int) -> list[Goal]:
+        """Put `goal` in the place of what waits of that turn of its source; return what it takes the place of."""
+        for number, waiting in enumerate(self.goals):
+            if (waiting.lease, waiting.turn) == (goal.lease, turn):
+                self.goals[number] = goal
+                return [waiting]
+        return []
+
     def take_all(self) -> list[Goal]:
         """Remove and return everything."""
         goals = list(self.goals)
@@ -147,6 +159,11 @@ class OutcomeQueue:
     def tell_unmoved(self, goal: Goal, outcome: Outcome, reason: Reason | None) -> None:
         """Tell the end of a goal that has not moved."""
         self.tell(lambda: goal.unmoved(outcome, reason, self._robot.pose))
+
+    def tell_all_unmoved(self, goals: Iterable[Goal], outcome: Outcome, reason: Reason | None) -> None:
+        """Tell the ends of goals that have not moved."""
+        for goal in goals:
+            self.tell_unmoved(goal, outcome, reason)
 
     def tell_later(self, end: Callable[[], Finished]) -> None:
         """Tell it once the robot stands."""

@@ -76,8 +76,7 @@ class GoalServer:
 
     def accept(self, envelope: Envelope, epoch: int) -> None:
         """Take in a `plan` or a `program` that was received in that stop epoch."""
-        mode = envelope.payload.get("mode")
-        if mode == "extend":
+        if (mode := envelope.payload.get("mode")) == "extend":
             self._extend(envelope)
             return
         account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
@@ -90,9 +89,22 @@ class GoalServer:
         declined = self._give_way(goal)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
-        declined = declined or self._goal_queue.add(goal)
+        if declined is None and (instead_of := envelope.payload.get("instead_of")) is not None:
+            changed = self._goal_queue.put_instead(goal, instead_of)
+            self._outcomes.tell_all_unmoved(changed, "stopped", Reason("order_changed"))
+            declined = None if changed else Reason("begun_meanwhile")
+        elif declined is None:
+            declined = self._goal_queue.add(goal)
         if declined is not None:
             self._outcomes.tell_unmoved(goal, "refused", declined)
+
+    def cancel(self, envelope: Envelope) -> None:
+        """End one turn of a source: at once where it waits, with a controlled stop where it has begun."""
+        current, why = self.current, Reason("canceled")
+        about = envelope.lease, envelope.turn
+        self._outcomes.tell_all_unmoved(self._goal_queue.take_turn(*about), "stopped", why)
+        if current is not None and (current.lease, current.turn) == about:
+            self._end_current_gently(why)
 
     def void(self, envelope: Envelope, epoch: int) -> None:
         """End the turn of an envelope that a later one, a stop or another, has overtaken."""
@@ -118,8 +130,7 @@ class GoalServer:
         if lower:
             why = handed_over(self._source(lower[0]), self._source(goal))
             self._emit(Notice(goal.turn, why))
-            for waiting in self._goal_queue.take(lower):
-                self._outcomes.tell_unmoved(waiting, "stopped", why)
+            self._outcomes.tell_all_unmoved(self._goal_queue.take(lower), "stopped", why)
             if lower[0] is current:
                 self._end_current_gently(why)
         return None
@@ -305,13 +316,11 @@ class GoalServer:
         self._executor.end_stopped(why)
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
-        for goal in self._goal_queue.take_void(self._stops.count):
-            self._outcomes.tell_unmoved(goal, "stopped", why)
+        self._outcomes.tell_all_unmoved(self._goal_queue.take_void(self._stops.count), "stopped", why)
 
     def hand_over(self, to: str) -> None:
         """End all goals, and tell it: somebody of higher priority takes command."""
-        goals = self._all()
-        if not goals:
+        if not (goals := self._all()):
             return
         why = handed_over(self._source(goals[0]), to)
         self._emit(Notice(goals[0].turn, why))
@@ -333,8 +342,7 @@ class GoalServer:
         self._end_queued(outcome, why)
 
     def _end_queued(self, outcome: Outcome, why: Reason) -> None:
-        for goal in self._goal_queue.take_all():
-            self._outcomes.tell_unmoved(goal, outcome, why)
+        self._outcomes.tell_all_unmoved(self._goal_queue.take_all(), outcome, why)
 
     def _drop_prepared(self, outcome: Outcome, reason: Reason | None) -> None:
         goal, self._preparing = self._preparing, None

@@ -286,6 +286,8 @@ class Motion:
             self._pausing.rescale(envelope, scaling)
         elif envelope.word == "approve":
             self.goals.approve(envelope)
+        elif envelope.word == "cancel":
+            self.goals.cancel(envelope)
         elif envelope.word == "release":
             self._release(envelope, emergency)
         elif envelope.word == "limit":
