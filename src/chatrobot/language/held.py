@@ -286,7 +286,7 @@ def _with_amount(steps: list[Step], size: Atom, reading: Reading) -> list[Step]:
         is_closed = drives and len(steps) > 1 and laps(steps, 1) is not None  # a square, not its sides
         return (steps if is_closed else steps[: once_of(steps)]) * int(size.number)  # `no, three times`
     if size.value == "number" and size.number < 1.0 and not any(map(str.isdigit, size.text)):
-        if len(steps) != 1 or not isinstance(steps[0], (Drive, Turn)):
+        if size.number <= 0.0 or len(steps) != 1 or not isinstance(steps[0], (Drive, Turn)):
             raise Unclear("unclear_motion", size.text)  # half of which of them, or of its radius?
         return [scaled(steps[0], size.number)]  # `yes, but only half`
     turns = reversed(reading.context.dialogue.turns)
