@@ -29,6 +29,7 @@ from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom
 from chatrobot.language.unclear import Unclear
 from chatrobot.language.unfinished import check_consistent
+from chatrobot.language.wishes import of_wish
 from chatrobot.plan.steps import Arc, Drive, Plan, Turn
 
 _OF_ITS_OWN = frozenset({"same_amount", "again", "more", "trip"})
@@ -55,7 +56,10 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     plain = _without_reason(plain, reading)
     if any(_tells_of_others({sign.label for sign in read.clause.signs}) for read in read_acts(plain)):
         return None  # `now you are 2 m away`
+    wish = of_wish(normalise(pending), reading.language)
+    pending = wish.text if wish is not None else pending  # `Leo says you should slide 50 cm`, then `left`
     if not _is_open(pending, reading):
+        _check_no_side_of(pending, plain, reading)
         return None
     pending = _without_talk(pending, reading)
     before = rephrased(normalise(pending), reading.language).rstrip(" .!")
@@ -79,11 +83,21 @@ def answer_to_question(plain: str, reading: Reading) -> Interpretation | None:
     joined = _joined(pending, before, plain, reading)
     if joined is not None:
         return _without_yes(joined, atoms, reading)
-    if is_side(plain, reading.language) and any(a.kind in ("q", "number") for a in reading.atoms(before)):
-        # What it is the side of was not understood: to turn there is no answer.
-        raise Unclear("no_unit", pending)
+    _check_no_side_of(pending, plain, reading)
     _ask_again(before, plain, reading)
     return None
+
+
+def _check_no_side_of(pending: str, plain: str, reading: Reading) -> None:
+    """To turn is no answer where a side is said of a motion that was not understood: `Leo says slide 50 cm`, `left`.
+
+    Raises:
+        Unclear: it is.
+    """
+    kinds = {atom.kind for atom in reading.atoms(rephrased(normalise(pending), reading.language))}
+    said = {atom.kind for atom in reading.atoms(plain)} - SILENT
+    if said and said <= {"dir", "rot", "role"} and "verb" in kinds and kinds & {"q", "number"}:
+        raise Unclear("no_unit", pending)
 
 
 def _joined(pending: str, before: str, plain: str, reading: Reading) -> Interpretation | None:
