@@ -34,7 +34,7 @@ def answered_question(
         if steps and (told or any(f.moves and not plain_question and not _is_bare(f) for f in frames)):
             return None
     except Unclear:
-        if _requests(plain, atoms, language):
+        if _requests(plain, atoms, language, ability=ability):
             raise  # could you …: it is to be done, and no fact answers it
     if questions.orders(plain, language):
         return None
@@ -47,7 +47,7 @@ def answered_question(
     return Interpretation("answered", reply, language)
 
 
-def _requests(plain: str, atoms: list[Atom], language: str) -> bool:
+def _requests(plain: str, atoms: list[Atom], language: str, *, ability: bool) -> bool:
     """Whether a question that is not understood as a motion tells one all the same: `could you go 2 m zorb?`."""
     sizes = {atom.value for atom in atoms if atom.kind == "q"}
     kinds = {atom.kind for atom in atoms}
@@ -57,7 +57,10 @@ def _requests(plain: str, atoms: list[Atom], language: str) -> bool:
     if ways and "unit_length" in kinds and questions.topic_of(plain, language) in ("", "ability"):
         return True  # as many metres as …
     favour = questions.asks_a_favour(plain, language)
-    return (doing and amount and is_ordered(plain)) or ((doing or amount or "times" in sizes) and favour)
+    is_told = is_ordered(plain) or (
+        ability and not plain.endswith("?")
+    )  # `can you roll 1 m, the jack needs through`
+    return (doing and amount and is_told) or ((doing or amount or "times" in sizes) and favour)
 
 
 def _is_bare(frame: Frame) -> bool:
