@@ -9,6 +9,7 @@ from chatrobot.language.arithmetic import is_another, sign_of
 from chatrobot.language.frames import GO, SIDES, TURN
 from chatrobot.language.measures import whole_number
 from chatrobot.language.tokens import Atom, quantity
+from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn, Wait
 
 _IDLE = frozenset({"filler", "glue", "sep", "reason"})
@@ -103,6 +104,8 @@ def read_edit(atoms: Sequence[Atom]) -> Edit | None:
             edit.way = atom.value
         elif atom.kind == "dir" and edit.way == "back" and atom.value in SIDES:
             edit.way, edit.returns = atom.value, True
+        elif (atom.kind, atom.value) == ("role", "apart"):
+            raise Unclear("unclear_motion", atom.text)  # of rows; `again apart from the last metre` has none
         elif atom.kind == "role" or (atom.kind == "counter" and atom.value == "side"):
             edit.roles.add(atom.value)
         elif atom.kind == "nth":

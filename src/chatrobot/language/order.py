@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 from chatrobot.language.after_amount import ended_by_amount, with_after
@@ -20,7 +21,7 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
     Raises:
         Unclear: where a word for before or after has nothing behind it.
     """
-    atoms = _settled_after(with_after(atoms))
+    atoms = _first_told_last(_settled_after(with_after(atoms)))
     at = next((i for i, a in enumerate(atoms) if a.kind == "order"), None)
     if at is None:
         return list(atoms)
@@ -43,10 +44,12 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         return _preceded(word, head, tail) if not leads else list(atoms)
     if leads:
         comma = next((i for i, a in enumerate(tail) if a.kind == "sep" and a.value == "weak"), None)
-        at = comma if comma is not None else _second_order(tail, word.text.endswith(" you"))
+        at = _second_order(tail[:comma], word.text.endswith(" you"))
+        if at is None or (comma is not None and tail[at - 1].kind == "conn"):
+            at = comma  # `before you turn and drive 1 m, wait 2 s`
         if at is None:
             return list(atoms)
-        first, second = tail[:at], tail[at + (comma is not None) :]
+        first, second = tail[:at], tail[at + (at == comma) :]
         if word.value == "after":
             return [*first, _THEN, *second]
         end = _ends_at(second)
@@ -56,6 +59,18 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
         cut = _behind_last_then(head)  # `go 1 m, then turn left after waiting 3 s`
         return [*head[:cut], *tail[:end], _THEN, *head[cut:], *tail[end:]]
     return [*head, _THEN, *tail]
+
+
+def _first_told_last(atoms: list[Atom]) -> list[Atom]:
+    """`A, then B, and first of all C`: C first; where something comes after C, it is as said."""
+    for i, (conn, flag) in enumerate(itertools.pairwise(atoms)):
+        if (conn.kind, conn.value, flag.kind, flag.value) != ("conn", "and", "flag", "first"):
+            continue
+        head, tail = atoms[:i], atoms[i + 2 :]
+        is_last = not any(a.kind == "conn" or (a.kind, a.value) == ("sep", "strong") for a in tail)
+        if is_last and all(any(a.kind == "verb" for a in part) for part in (head, tail)):
+            return [*tail, _THEN, *head]
+    return atoms
 
 
 def _preceded(word: Atom, head: list[Atom], tail: list[Atom]) -> list[Atom]:
