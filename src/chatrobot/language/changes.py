@@ -36,7 +36,7 @@ def is_change(whole: Frame) -> bool:
     Raises:
         Unclear: for steps that are to be repeated but were never said, or until something holds.
     """
-    if "same_amount" in whole.flags:
+    if "same_amount" in whole.flags and "faster" not in whole.q:  # `twice as fast, same time`
         return False
     if "again" in whole.flags and ("count" in whole.q or {"until", "total"} & whole.flags):
         raise Unclear("nothing_before", whole.text)

@@ -63,10 +63,12 @@ def in_order(atoms: Sequence[Atom]) -> list[Atom]:
 
 def _first_told_last(atoms: list[Atom]) -> list[Atom]:
     """`A, then B, and first of all C`: C first; where something comes after C, it is as said."""
-    for i, (conn, flag) in enumerate(itertools.pairwise(atoms)):
+    real = [i for i, atom in enumerate(atoms) if atom.kind not in ("filler", "glue")]
+    for i, at in itertools.pairwise(real):
+        conn, flag = atoms[i], atoms[at]
         if (conn.kind, conn.value, flag.kind, flag.value) != ("conn", "and", "flag", "first"):
             continue
-        head, tail = atoms[:i], atoms[i + 2 :]
+        head, tail = atoms[:i], atoms[at + 1 :]
         is_last = not any(a.kind == "conn" or (a.kind, a.value) == ("sep", "strong") for a in tail)
         if is_last and all(any(a.kind == "verb" for a in part) for part in (head, tail)):
             return [*tail, _THEN, *head]

@@ -90,7 +90,7 @@ def insert(script: Script, frame: Frame, *, counted: bool = False) -> None:
     units: list[list[Step]] = []
     for k, unit in enumerate(moving):
         units.append(unit)
-        if lead <= k < len(moving) - 1 or ("after_each" in frame.flags and not pause):
+        if lead <= k < len(moving) - 1 or "after_each" in frame.flags:
             units.append(steps)
     script.units = units
 
