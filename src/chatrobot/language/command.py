@@ -29,6 +29,7 @@ from chatrobot.language.selections import (
     check_spoken_of,
     is_change_alone,
     names_a_part,
+    names_first_time,
     part_of_before,
     points_at_before,
 )
@@ -107,6 +108,8 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
     if until is not None:
         return _until(until, reading)
     check_no_manner(atoms, language)
+    if names_first_time(plain, language):
+        raise Unclear("unclear_motion", plain[:60])  # `twice as far as the first time`: of the last it says nothing
     changed = of_before(plain, atoms, reading)
     asked = None if changed else figure_asked(atoms, reading.context.dialogue)
     changed = asked or changed

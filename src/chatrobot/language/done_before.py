@@ -169,7 +169,7 @@ def _share(said: Said, before: _Before) -> list[Step] | None:
         return None  # `back by the same plus 10 cm`
     way = said.has(*WAYS)
     grows = any(factor > 1.0 for factor in said.factors) and said.has("driving", "turning", "going")
-    points = said.has("last", "as_far") or (
+    points = said.has("last", "as_far", "first_one") or (
         said.has("weak") and bool(said.factors or said.amounts.keys() - {"amount"})
     )
     if not said.has(*SUMS, "total") and not (points and (way or (grows and said.amounts))):
@@ -193,6 +193,8 @@ def _share(said: Said, before: _Before) -> list[Step] | None:
 
 def _meant(said: Said, before: _Before) -> Sequence[Step]:
     """The motions that are spoken of, all turns or all drives; none where others could be meant."""
+    if said.has("first_one"):
+        return before.done[0] if len(before.done[0]) == 1 and not said.has(*SUMS, "last") else ()
     drives = said.has("driving", "sliding", "reverse", "forward")
     kind = Turn if said.has("turning") else Drive if drives else type(before.last[-1])
     if not drives and kind is Turn and not said.has("turning") and not said.has("both", "last", "as_far"):

@@ -23,7 +23,7 @@ from chatrobot.language.rephrase import rephrased, with_breaks
 from chatrobot.language.rules import form
 from chatrobot.language.selection_forms import same_speed
 from chatrobot.language.set_off import set_off
-from chatrobot.language.sides import is_side, with_side
+from chatrobot.language.sides import with_side
 from chatrobot.language.talk import not_ordered
 from chatrobot.language.tidy import tidy
 from chatrobot.language.tokens import SILENT, Atom

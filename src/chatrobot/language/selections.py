@@ -312,6 +312,11 @@ def names_a_part(plain: str, language: str) -> bool:
     return any(form.search(plain) for form in forms(language, "mentions"))
 
 
+def names_first_time(plain: str, language: str) -> bool:
+    """Whether a text compares with the first time that something was done."""
+    return any(form.search(plain) for form in forms(language, "first_time"))
+
+
 def points_at_before(atom: Atom, language: str) -> bool:
     """Whether `again` points at the motion before, not at what is told beside it: `turn around and do the same`."""
     return atom.text in load_table(language, "selections").get("same", ())
