@@ -29,7 +29,7 @@ from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
 
 _SHOWN = 60
 _OTHERS = "{others}"
-"""Stands in a reading for how many steps the last motion has beside one."""
+"""Stands in a reading for how many steps were done beside one."""
 _PACES = frozenset({"speed", "time", "rate"})
 _SIZES = frozenset({"length", "angle", "turns", "number", "time", "count", "speed"})
 
@@ -50,7 +50,7 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
             if rule.is_in(plain) and is_so(dialogue):
                 if not rule.said:
                     raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
-                plain = rule.applied(plain).replace(_OTHERS, str(len(_steps(dialogue.last_motion)) - 1))
+                plain = rule.applied(plain).replace(_OTHERS, str(_count_others(dialogue)))
     plain = _of_total(plain, language, dialogue)
     if _rules(language, "means", "again").any_in(plain):
         return plain, replace(context, dialogue=as_put_right(dialogue))
@@ -58,6 +58,10 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
         if _rules(language, "means", kind).any_in(plain):
             return plain, replace(context, dialogue=_of_kind(kind, plain, dialogue))
     return plain, context
+
+
+def _count_others(dialogue: Dialogue) -> int:
+    return sum(len(entry.way or ()) for entry in dialogue.ledger.done) - 1
 
 
 def _of_total(plain: str, language: str, dialogue: Dialogue) -> str:
