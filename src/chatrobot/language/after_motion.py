@@ -30,6 +30,8 @@ from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
 _SHOWN = 60
 _OTHERS = "{others}"
 """Stands in a reading for how many steps were done beside one."""
+_SPEED = "{speed_mps}"
+"""Stands in a reading for the speed of the last motion."""
 _PACES = frozenset({"speed", "time", "rate"})
 _SIZES = frozenset({"length", "angle", "turns", "number", "time", "count", "speed"})
 
@@ -50,7 +52,7 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
             if rule.is_in(plain) and is_so(dialogue):
                 if not rule.said:
                     raise Unclear("unclear_motion", plain[:_SHOWN], is_final=True)
-                plain = rule.applied(plain).replace(_OTHERS, str(_count_others(dialogue)))
+                plain = _filled(rule.applied(plain), dialogue)
     plain = _of_total(plain, language, dialogue)
     if _rules(language, "means", "again").any_in(plain):
         return plain, replace(context, dialogue=as_put_right(dialogue))
@@ -60,8 +62,19 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
     return plain, context
 
 
-def _count_others(dialogue: Dialogue) -> int:
-    return sum(len(entry.way or ()) for entry in dialogue.ledger.done) - 1
+def _filled(said: str, dialogue: Dialogue) -> str:
+    """What a rule says, with the figures of what was done in it.
+
+    Raises:
+        Unclear: nothing was done at a speed that could be told.
+    """
+    if _SPEED in said:
+        speeds = (getattr(step, "speed_mps", None) for step in _steps(dialogue.last_motion))
+        speed_mps = next(filter(None, speeds), None)
+        if speed_mps is None:
+            raise Unclear("nothing_before", said[:_SHOWN])
+        said = said.replace(_SPEED, f"{speed_mps:g}")
+    return said.replace(_OTHERS, str(sum(len(entry.way or ()) for entry in dialogue.ledger.done) - 1))
 
 
 def _of_total(plain: str, language: str, dialogue: Dialogue) -> str:
