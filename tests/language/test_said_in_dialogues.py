@@ -8,12 +8,44 @@ from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import Conversation, conversation
 
 LEGS = "forward 20 cm, right 45, forward 60 cm"
+HOPS = ["drive 0.2 m", "wait 1 s"]
+THREE_QUARTERS = "arc left 270 deg radius 1 m"
+BACK_TO_SECOND = "drive 0.5 m back\nturn right 90 deg"
 THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
 
 
 @pytest.mark.parametrize(
     ("turns", "plan"),
     [
+        # of what was done before, and of the first of it
+        (("back 90 cm", "forward 20 cm", "now forward twice as far as the first time"), "drive 1.8 m"),
+        (("fahr 90 cm zurück", "20 cm vor", "doppelt so weit wie beim ersten Mal, nach vorn"), "drive 1.8 m"),
+        (("后退90厘米", "前进20厘米", "再往前走第一次那么远"), "drive 0.9 m"),
+        (("drive 4 s at 0.5 m/s", "same time backwards, at .25 m/s"), "drive 4 s back at 0.25 m/s"),
+        (("drive 3 s at 0.1 m/s", "twice as fast now, same time"), "drive 3 s at 0.2 m/s"),
+        (("drive 1 m at 0.2 m/s", "the same distance again, twice as fast"), "drive 1 m at 0.4 m/s"),
+        (("three hops of 20 cm, wait 1 s after each", "two more of those hops"), "\n".join(HOPS * 2)),
+        (("arc left 90 deg radius 1 m", "keep going till the circle is complete"), THREE_QUARTERS),
+        (("arc left 90 deg radius 1 m", "weiter bis der Kreis voll ist"), THREE_QUARTERS),
+        (("arc left 90 deg radius 1 m", "继续走直到圆闭合"), THREE_QUARTERS),
+        (("forward 1 m", "left", "forward 50 cm", "undo everything but the first"), BACK_TO_SECOND),
+        (
+            (LEGS, "turn left, forward 1 m", "undo the last 3 steps"),
+            "drive 1 m back\nturn right 90 deg\ndrive 0.6 m back",
+        ),
+        (
+            ("forward 20 cm, right 45", "once more, but with left instead of right"),
+            "drive 0.2 m\nturn left 45 deg",
+        ),
+        (("20 cm vor", "noch ein letztes Mal"), "drive 0.2 m"),
+        (
+            ("drive 1 m at 0.1 m/s", "keep to that speed from here on", "back 30 cm"),
+            "drive 0.3 m back at 0.1 m/s",
+        ),
+        (("以0.1米每秒前进1米", "以后就保持这个速度", "后退半米"), "drive 0.5 m back at 0.1 m/s"),
+        (("Leo says you should slide sideways by 50 cm", "to the left"), "drive 0.5 m left"),
+        (("my son would like you to slide half a metre", "right"), "drive 0.5 m right"),
+        ((LEGS, "again everything except the turn"), "drive 0.2 m\ndrive 0.6 m"),
         # parts of what was done
         ((LEGS, "repeat step 3", "now step 2 but the other way"), "turn left 45 deg"),
         ((LEGS, "the third step but twice as fast"), "drive 0.6 m at 0.6 m/s"),
@@ -234,3 +266,37 @@ def test_an_order_of_its_own_is_no_length_of_a_step(text: str) -> None:
     meant = conversation(asked).say(text)
     assert meant.plan is not None
     assert format_plan(meant.plan) == "drive 0.2 m"
+
+
+@pytest.mark.parametrize(
+    "turns",
+    [
+        ("turn 40 degrees, Leo says", "left"),  # the side of what was not understood, and no quarter turn
+        ("please slide 30 cm for Leo", "left"),
+        ("forward 1 m, left, forward 1 m", "again apart from the last metre"),
+        ("forward 1.2 m, left 90, forward 80 cm", "turn left, forward 1 m", "undo the last 2 steps"),
+        ("back 90 cm", "forward 20 cm", "twice as far as the first time my dear"),
+        ("forward 1 m, left, forward 50 cm", "again up to the turn"),
+        ("skip it",),
+    ],
+)
+def test_what_points_at_several_things_or_at_none_is_asked_back(turns: tuple[str, ...]) -> None:
+    assert conversation(*turns[:-1]).say(turns[-1]).plan is None
+
+
+@pytest.mark.parametrize(
+    ("text", "plan"),
+    [
+        ("before you drive 1 m turn right 90, and wait 4 s", "turn right 90 deg\nwait 4 s\ndrive 1 m"),
+        (
+            "before you go forward 1 m, turn right, and first of all wait 4 s",
+            "wait 4 s\nturn right 90 deg\ndrive 1 m",
+        ),
+        ("before you turn left and drive 1 m, wait 2 s", "wait 2 s\nturn left 90 deg\ndrive 1 m"),
+        ("can u roll forward 1.2m, pallet jack needs thru", "drive 1.2 m"),
+        ("从现在起按每秒15厘米走，听到没？", ""),
+    ],
+)
+def test_the_order_of_the_words_is_not_the_order_of_doing(text: str, plan: str) -> None:
+    found = Conversation().say(text).plan
+    assert (format_plan(found).strip() if found is not None else "") == plan

@@ -109,7 +109,9 @@ def _understood(plain: str, reading: Reading) -> Interpretation:
         return _until(until, reading)
     check_no_manner(atoms, language)
     if names_first_time(plain, language):
-        raise Unclear("unclear_motion", plain[:60])  # `twice as far as the first time`: of the last it says nothing
+        raise Unclear(
+            "unclear_motion", plain[:60]
+        )  # `twice as far as the first time`: of the last it says nothing
     changed = of_before(plain, atoms, reading)
     asked = None if changed else figure_asked(atoms, reading.context.dialogue)
     changed = asked or changed
