@@ -86,7 +86,7 @@ def test_what_waits_is_taken_back_alone(rig: UndoRig, orders: tuple[str, ...], s
     [
         (THREE_STEPS, "leave out the turn", (3.0, 0.0, 0.0)),
         (THREE_STEPS, "no, right", (2.0, -1.0, -90.0)),
-        (THREE_STEPS, "45 degrees, I mean", (2.707, 0.707, 45.0)),
+        (THREE_STEPS, "I mean 45 degrees", (2.707, 0.707, 45.0)),
         (THREE_STEPS, "the last bit only 50 cm", (2.0, 0.5, 90.0)),
         (THREE_STEPS, "without the last step", (2.0, 0.0, 90.0)),
         (THREE_STEPS, "finish this and stop", (2.0, 0.0, 0.0)),
@@ -125,11 +125,29 @@ def test_the_last_two_orders_that_wait_are_taken_back(rig: UndoRig) -> None:
     ends_at(rig, 2.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("said", ["turn right 90", "ok", "good", "how long is the table?", "thanks"])
+@pytest.mark.parametrize(
+    "said",
+    [
+        "turn right 90",
+        "ok",
+        "good",
+        "how long is the table?",
+        "thanks",
+        "I said 40 to my friend",
+        "almost 45 degrees",
+    ],
+)
 def test_an_order_of_its_own_and_a_remark_change_nothing_that_waits(rig: UndoRig, said: str) -> None:
     (_, second), turn = said_while_driving(rig, *DRIVE_AND_TURN, said=said)
     replaced = rig.session.results[turn].outcome == "completed"
     assert outcomes(rig, [second]) == (["stopped"] if replaced else ["completed"])
+
+
+@pytest.mark.parametrize("said", ["the turn comes now", "only 50 cm left", "the last bit is the hardest"])
+def test_a_remark_about_a_step_to_come_changes_nothing(rig: UndoRig, said: str) -> None:
+    (first,), _ = said_while_driving(rig, THREE_STEPS, said=said)
+    assert outcomes(rig, [first]) == ["completed"]
+    ends_at(rig, 2.0, 1.0, 90.0)
 
 
 def test_a_question_about_the_rest_tells_what_waits_too(rig: UndoRig) -> None:

@@ -89,7 +89,9 @@ class Amending:
         """The steps of that order with what `text` changes of them; None where it changes nothing."""
         plan, understanding = instruction.meant.plan, self._understanding
         after = understanding.context([instruction])
-        return changed_in(plan, text, after, understanding.read) if plan is not None else None
+        if plan is None:
+            return None
+        return changed_in(plan, text, after, understanding.profile, understanding.read)
 
     def _of_waiting(self, text: str, queued: Sequence[_Numbered], current: Step | None) -> Amendment | None:
         """What `text` makes of orders that wait, of what was said last first.

@@ -13,7 +13,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.glossed import in_known_words
 from chatrobot.language.held import is_no_order, names_part
-from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpretation import Interpretation, LanguageCode
 from chatrobot.language.normalise import normalise
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
@@ -24,6 +24,9 @@ from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
 from chatrobot.plan.steps import Plan, Step
 from chatrobot.robots.profile import RobotProfile
+
+_REMARK = -3.0
+"""A text that names a part of a plan, with lower odds of an order, remarks on it: `the turn comes now`."""
 
 
 def rescaled(
@@ -58,7 +61,11 @@ def says(what: Literal["left", "wrong", "no_more", "last_not"], text: str, conte
 
 
 def changed(
-    plan: Plan, said: str, after: Context, read: Callable[[str, Context], Interpretation]
+    plan: Plan,
+    said: str,
+    after: Context,
+    profile: RobotProfile,
+    read: Callable[[str, Context], Interpretation],
 ) -> list[Step] | None:
     """The steps of a plan that is not done yet with what is `said` of them, repeats counted out; None for no change.
 
@@ -67,6 +74,9 @@ def changed(
     Args:
         after: what is known once the plan is done.
     """
+    language, known = in_known_words(said, after)
+    if not _may_change(normalise(known), language, after, profile):
+        return None
     alone = replace(after.dialogue, turns=(), pending="", offered=None, held=None)
     is_own = read(said, replace(after, dialogue=alone)).plan is not None
     if is_own and not read(said, after).corrects:
@@ -95,8 +105,21 @@ def _of_speed(plain: str, language: str) -> str:
     """
     found = _rules(language)
     known = next((rule.applied(plain) for rule in found.that_may_match(plain) if rule.is_in(plain)), "")
-    is_order = not plain.endswith("?") and order_log_odds(read_acts(plain)) >= 0.0
-    return known or (plain if is_order else "")
+    return known or (plain if _is_order(plain) else "")
+
+
+def _may_change(plain: str, language: LanguageCode, after: Context, profile: RobotProfile) -> bool:
+    """Whether it orders something; words that name a part of a plan, or correct it, need but be no sure remark."""
+    if plain.endswith("?"):
+        return False
+    names = form(language, "held", "instead").search(plain) or names_part(
+        plain, Reading(language, after, profile)
+    )
+    return order_log_odds(read_acts(plain)) >= (_REMARK if names else 0.0)  # not `I said 40 to my friend`
+
+
+def _is_order(plain: str) -> bool:
+    return not plain.endswith("?") and order_log_odds(read_acts(plain)) >= 0.0
 
 
 def _says_otherwise(plain: str, language: str, *, is_faster: bool) -> bool:
