@@ -8,6 +8,7 @@ import pytest
 from tests.dialogue.undo_rig import UndoRig
 
 from chatrobot.dialogue.options import Options
+from chatrobot.dialogue.resuming import UnderWay
 
 DRIVE_AND_TURN = ("drive 2 m", "then turn left 30")
 THREE_STEPS = "drive 2 m, turn left 90, drive 1 m"
@@ -166,3 +167,17 @@ def test_after_a_stop_the_rest_is_what_was_interrupted_and_what_waited(rig: Undo
     proposal = rig.session.results[turn].proposal
     assert proposal is not None
     assert [line.split()[0] for line in proposal.plan_text.splitlines()] == ["drive", "turn"]
+
+
+def test_a_step_that_begins_while_it_is_changed_is_not_done_twice(rig: UndoRig) -> None:
+    rig.session.say(THREE_STEPS)
+    rig.live(2.0)
+    with pytest.MonkeyPatch.context() as patch:  # it was in the turn before when the text was read
+        rig.live(5.5)
+        assert rig.session._resuming.under_way.step_of(1) == 2
+        patch.setattr(UnderWay, "step_of", lambda *_: 1)
+        turn = rig.session.say("no, right")
+        rig.session.pump(0.0)
+    rig.live(5.0)
+    assert rig.session.results[turn].outcome == "unclear"
+    assert rig.session.results[turn].proposal is not None

@@ -19,8 +19,8 @@ from chatrobot.language.driven import says
 from chatrobot.language.interpretation import Interpretation, planned
 from chatrobot.language.phrases import say
 from chatrobot.plan.base import expanded
-from chatrobot.plan.steps import Step
-from chatrobot.plan.text import parse_plan
+from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.text import format_plan, parse_plan
 
 
 class Amendment(NamedTuple):
@@ -36,10 +36,10 @@ class Amendment(NamedTuple):
 
 
 class _Rest(NamedTuple):
-    """What follows the step under way, in the order of that turn: `steps`, in place of its last `steps_before`."""
+    """What follows the step under way, in the order of that turn: `steps`, in place of those `before`."""
 
     turn: int
-    steps_before: int
+    before: tuple[Step, ...]
     steps: tuple[Step, ...]
 
 
@@ -81,8 +81,8 @@ class Amending:
         if amendment is not None or changed is None or changes_current:
             return amendment
         waiting = [step for _, one in queued for step in _steps(one)]
-        steps_before = len(flat) - number + len(waiting)
-        self._rest = _Rest(utterance.turn, steps_before, (*changed[number:], *waiting))
+        before = (*flat[number:], *waiting)
+        self._rest = _Rest(utterance.turn, before, (*changed[number:], *waiting))
         return Amendment(None)
 
     def _changed(self, instruction: Instruction, text: str) -> list[Step] | None:
@@ -126,8 +126,8 @@ class Amending:
     def _ended(self, utterance: Utterance, steps: list[Step], queued: Sequence[_Numbered]) -> Amendment:
         """What runs ends with the step under way, the first of `steps`, and nothing comes after it."""
         if len(steps) > 1:
-            steps_before = len(steps) - 1 + sum(len(_steps(one)) for _, one in queued)
-            self._rest = _Rest(utterance.turn, steps_before, ())
+            waiting = [step for _, one in queued for step in _steps(one)]
+            self._rest = _Rest(utterance.turn, (*steps[1:], *waiting), ())
             return Amendment(None)
         language = self._understanding.language_of(utterance.text)
         told = say(language, "ends_after", plan=self._understanding.describe(steps))
@@ -137,11 +137,10 @@ class Amending:
     def _gone_on(self, rest: _Rest) -> Amendment:
         """Go on with what was left of the step that ran, and what follows it now."""
         left = list(expanded(parse_plan(self._resuming.rest).steps)) if self._resuming.rest else []
-        steps = [*left[: len(left) - rest.steps_before], *rest.steps]
-        language = self._understanding.language
-        if (
-            len(left) < rest.steps_before or not steps
-        ):  # more was done, or less is known, than when it was said
+        begun, follows = left[: -len(rest.before)], left[-len(rest.before) :]
+        steps, language = [*begun, *rest.steps], self._understanding.language
+        # What has begun since it was said is in part done, and cannot be changed any more.
+        if not follows or format_plan(Plan(rest.before)) != format_plan(Plan(tuple(follows))) or not steps:
             stood = Interpretation("answered", say(language, self._understanding.stop_code()), language)
             return Amendment(self._resuming.offer() or stood)
         meant = planned(steps, language)

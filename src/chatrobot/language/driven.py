@@ -13,7 +13,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.glossed import in_known_words
 from chatrobot.language.held import is_no_order, names_part
-from chatrobot.language.interpretation import Interpretation, LanguageCode
+from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.normalise import normalise
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
@@ -73,9 +73,10 @@ def changed(
 
     Args:
         after: what is known once the plan is done.
+        read: reads a text in a context, and notes nothing.
     """
     language, known = in_known_words(said, after)
-    if not _may_change(normalise(known), language, after, profile):
+    if not _may_change(normalise(known), Reading(language, after, profile)):
         return None
     alone = replace(after.dialogue, turns=(), pending="", offered=None, held=None)
     is_own = read(said, replace(after, dialogue=alone)).plan is not None
@@ -108,18 +109,14 @@ def _of_speed(plain: str, language: str) -> str:
     return known or (plain if _is_order(plain) else "")
 
 
-def _may_change(plain: str, language: LanguageCode, after: Context, profile: RobotProfile) -> bool:
+def _may_change(plain: str, reading: Reading) -> bool:
     """Whether it orders something; words that name a part of a plan, or correct it, need but be no sure remark."""
-    if plain.endswith("?"):
-        return False
-    names = form(language, "held", "instead").search(plain) or names_part(
-        plain, Reading(language, after, profile)
-    )
-    return order_log_odds(read_acts(plain)) >= (_REMARK if names else 0.0)  # not `I said 40 to my friend`
+    is_about = form(reading.language, "held", "instead").search(plain) or names_part(plain, reading)
+    return _is_order(plain, _REMARK if is_about else 0.0)  # not `I said 40 to my friend`
 
 
-def _is_order(plain: str) -> bool:
-    return not plain.endswith("?") and order_log_odds(read_acts(plain)) >= 0.0
+def _is_order(plain: str, least_log_odds: float = 0.0) -> bool:
+    return not plain.endswith("?") and order_log_odds(read_acts(plain)) >= least_log_odds
 
 
 def _says_otherwise(plain: str, language: str, *, is_faster: bool) -> bool:
