@@ -151,6 +151,10 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     dialogue, language = reading.context.dialogue, reading.language
     check_spoken_of(plain, language, dialogue)
     part = part_of_before(plain, language, dialogue, reading.atoms) or part_changed(plain, reading)
+    if part is not None and dialogue.refused is not None:
+        raise Unclear(
+            "unclear_motion", plain[:60]
+        )  # `the second step`: of what was refused, or of what was done?
     if part is not None or dialogue.last_motion is None or dialogue.last_motion.plan is None:
         return part
     before = dialogue.last_motion.plan.steps

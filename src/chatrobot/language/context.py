@@ -42,6 +42,12 @@ class Dialogue:
         return next((turn for turn in reversed(self.turns) if turn.plan is not None), None)
 
     @property
+    def refused(self) -> TurnRecord | None:
+        """The last turn whose plan was refused, where none has moved since."""
+        last = next((turn for turn in reversed(self.turns) if turn.wanted is not None or turn.moved), None)
+        return last if last is not None and last.wanted is not None else None
+
+    @property
     def last_text(self) -> str:
         """What the last turn that had a plan was told; empty where there was none."""
         return self.last_motion.text if self.last_motion is not None else ""

@@ -40,6 +40,7 @@ from chatrobot.language.names import names_in
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.one_by_one import one_by_one
+from chatrobot.language.passed_over import passed_over
 from chatrobot.language.phrases import say
 from chatrobot.language.place_questions import answer_about_places, by_distance_to_place, with_spoken_place
 from chatrobot.language.pointing import beside_reference
@@ -56,7 +57,13 @@ from chatrobot.language.set_off import set_off
 from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.slips import without_slips
 from chatrobot.language.speed_limit import bounded, plan_within, within_limit, without_limit
-from chatrobot.language.starting import as_ordered, has_a_stop_line, with_told_apart, without_hold
+from chatrobot.language.starting import (
+    as_ordered,
+    has_a_stop_line,
+    tries_again,
+    with_told_apart,
+    without_hold,
+)
 from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.to_taught import to_taught
 from chatrobot.language.tutorial_form import read_twists
@@ -113,6 +120,9 @@ class OfflineInterpreter:
         reason = not_ordered(text, language, meant.plan, context.dialogue) if offers else ""
         if reason:
             return asked_back(Unclear(reason, text), language)
+        passed = self._passed_over(text, meant.plan, language, context)
+        if passed:
+            return asked_back(Unclear("unclear_motion", passed), language)
         is_doubted = (wish is not None and not wish.is_sure) or hardly_ordered(said, language)
         if is_doubted or may_be_talk(meant, text, language, context):
             return proposed(meant, language) or meant
@@ -137,6 +147,13 @@ class OfflineInterpreter:
             )
             asked = asked or asked_back(problem, told_in(text, language, context), context.dialogue.last_text)
             return replace(asked, corrects=says_meant(text))
+
+    def _passed_over(self, text: str, plan: Plan | None, language: LanguageCode, context: Context) -> str:
+        def read(rest: str) -> Plan | None:
+            return self._meant(rest, language, context).plan
+
+        turns = context.dialogue.turns
+        return passed_over(normalise(text), language, plan, turns, read) if plan is not None else ""
 
     def _remarked(self, text: str, language: LanguageCode, context: Context) -> Interpretation | None:
         read = partial(self._interpreted, language=language, context=context)
@@ -271,6 +288,9 @@ class OfflineInterpreter:
         )
         if told is not None:
             return told
+        refused = context.dialogue.refused
+        if refused is not None and refused.wanted is not None and tries_again(plain, language):
+            return planned([*refused.wanted.steps], language)
         part = part_of_shape(
             plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
         )

@@ -114,7 +114,8 @@ def check_answers_nothing(frames: Sequence[Frame], dialogue: Dialogue) -> None:
         Unclear: `again` after what was refused. `90 degrees` after `turn left`: so much more, or so much in all?
             `Clockwise` after `turn 180`?
     """
-    if dialogue.turns and dialogue.turns[-1].outcome == "refused" and dialogue.turns[-1].plan is None:
+    refused = dialogue.turns and dialogue.turns[-1].outcome == "refused" and dialogue.turns[-1].plan is None
+    if refused or dialogue.refused is not None:
         _check_no_bare_repeat(frames)
     last = _last_told(dialogue)
     if len(frames) != 1 or last is None or last.plan is None:

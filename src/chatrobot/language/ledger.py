@@ -44,6 +44,7 @@ class TurnRecord:
     code of the reason why nobody can tell any more how the robot gets back to where the turn began. `program`: a
     program drove, which the session keeps under that number; 0 for none. `duration_s` is None where nobody timed it.
     `told` is how its end was told, with what was measured. `corrects`: it put the turn before right.
+    `wanted` is the plan of a turn that was refused.
     """
 
     text: str
@@ -59,6 +60,7 @@ class TurnRecord:
     duration_s: float | None = None
     told: str = ""
     corrects: bool = False
+    wanted: Plan | None = None
 
     @property
     def way(self) -> Way:

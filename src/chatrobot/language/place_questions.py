@@ -1,4 +1,4 @@
-"""Questions about places: where one is, how far, on which side, which is nearest. They are answered, and never move."""
+"""Questions about places: where one is, how far, on which side, which is nearest or farthest. None of them moves."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ _SIDES_DEG = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
 _FAR_OFF = 99
 _SHOWN = 60
 _MOST_NAMED, _MOST_BESIDE = 5, 3
+_OF_ALL = ("nearest", "farthest")
+"""Questions that name no place."""
 
 
 class _Place(NamedTuple):
@@ -74,18 +76,19 @@ def _reply(kind: str, named: str, side: str, language: LanguageCode, context: Co
     place = known.get(_plain(named))
     if kind == "it" and place is None:
         return say(language, "which_place_asked", places=places_known(context, language))
-    if kind != "nearest" and place is None:
+    if kind not in _OF_ALL and place is None:
         return _unknown(named, list(known), language, context) if _may_be_a_place(named, language) else ""
     unheard = unknown_pose(context)
     if unheard:
         return say(language, unheard)
-    if kind == "nearest":
+    if kind in _OF_ALL:
         # Places that are reached by no way that is known come after those that are.
         order = sorted(
             {place.name: place for place in known.values()}.values(), key=lambda p: _far(p, context)
         )
         order = [other for other in order if _straight_m(other, context) > _HERE_M]
-        return say(language, "place_nearest", text=_told(order[0], language, context)) if order else ""
+        at = 0 if kind == "nearest" else -1
+        return say(language, f"place_{kind}", text=_told(order[at], language, context)) if order else ""
     assert place is not None
     if kind == "near":
         return _beside(place, list(known.values()), language)

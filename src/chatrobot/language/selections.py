@@ -256,6 +256,10 @@ def check_spoken_of(plain: str, language: str, dialogue: Dialogue) -> None:
         raise Unclear("nothing_before", plain[:60])
 
 
+_FEW = 5
+"""So many more of what was done are counted without its name; more than that, or than were done, is an amount."""
+
+
 def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
     """`One more step`, after three alike: so many more of them; None where the last motion was nothing so often.
 
@@ -277,6 +281,8 @@ def further(plain: str, language: str, dialogue: Dialogue) -> list[Step] | None:
         if more is None:
             raise Unclear("which_size", plain[:60])
         return more
+    if said.get("named") == "" and count > max(_FEW, len(steps) // max(once, 1)):
+        return None  # `and 15 more`, after 40 cm: an amount
     if said.get("named") == "":
         whole = None if len(steps) == 1 and not isinstance(steps[0], Arc) else laps(steps, count)
         if whole is not None:

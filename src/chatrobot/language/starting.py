@@ -125,3 +125,8 @@ def _goes_on(line: str) -> bool:
     """`then stop`, 然后停."""
     beginnings = (tokenise(said, lexicon(), {}) for said in (line, line.split()[0]))
     return any(atoms[0].kind == "conn" or atoms[0].value == "finally" for atoms in beginnings if atoms)
+
+
+def tries_again(plain: str, language: str) -> bool:
+    """Whether a normalised text only wants what was refused to be tried once more."""
+    return form(language, "starting", "retried").fullmatch(plain.strip(" .!")) is not None

@@ -9,7 +9,9 @@ from chatrobot.language.acts import agreeing
 from chatrobot.language.answers import with_manner
 from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
+from chatrobot.language.edits import mirrored
 from chatrobot.language.forms import read_definition
+from chatrobot.language.frames import SIDES
 from chatrobot.language.held import (
     adds,
     answered,
@@ -28,6 +30,7 @@ from chatrobot.language.proposals import offer, proposed
 from chatrobot.language.reading import Reading
 from chatrobot.language.rephrase import rephrased
 from chatrobot.language.rules import form
+from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 
@@ -90,6 +93,12 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
         if agreed is not None:
             return asked_back(problem, language)
         found = None
+    side = _bare_side(text, reading) if found is None and agreed is None else ""
+    told = meant(text, context) if side else None
+    if (
+        told is not None and told.plan == meant(text, _without_waiting(context)).plan
+    ):  # else it answers a question
+        return _on_that_side(offered, side, reading) or proposed(told, language)
     if found is None:
         may_agree = (text.strip(" .,!").casefold(),) in agreeing()  # `right!`
         return asked if may_agree else None
@@ -98,6 +107,26 @@ def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | Non
     if agreed is not None or (was_clear and _corrects(text, language)) or meant(text, context).plan == found:
         return done
     return proposed(done, language)
+
+
+def _bare_side(text: str, reading: Reading) -> str:
+    """The side that is all that a text says: `and clockwise`; else an empty string."""
+    said = [
+        atom
+        for atom in reading.atoms(rephrased(normalise(text), reading.language))
+        if atom.kind not in SILENT
+    ]
+    sides = {atom.value for atom in said if atom.kind in ("dir", "rot") and atom.value in SIDES}
+    return sides.pop() if len(sides) == 1 and all(atom.kind in ("dir", "rot") for atom in said) else ""
+
+
+def _on_that_side(offered: Plan, side: str, reading: Reading) -> Interpretation | None:
+    """The plan that was asked about to that side, asked about again; None where it goes to none, or to both."""
+    try:
+        steps = mirrored([*offered.steps], side == "left")
+    except Unclear:
+        return None
+    return proposed(planned(steps, reading.language), reading.language) if steps is not None else None
 
 
 def of_taught(text: str, reading: Reading, meant: Read) -> Interpretation | None:

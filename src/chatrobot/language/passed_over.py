@@ -1,0 +1,124 @@
+"""Words that point at an earlier motion, and play no part in the plan: such a plan is asked about, not done.
+
+`heeded.py` changes each amount and side of an order that is told in full. An order that is told by what was done
+before has words besides that no atom carries (“step 4”, “the very first order”, “just as long”): each is left out here
+in turn, and the plan must change. What they are is `passed_over.toml`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+
+from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.frames import SIDES
+from chatrobot.language.inverse import is_sideways
+from chatrobot.language.last_motion import atoms_said
+from chatrobot.language.ledger import TurnRecord
+from chatrobot.language.rules import Form, form
+from chatrobot.language.selection_forms import number_said
+from chatrobot.language.tokens import Atom
+from chatrobot.language.unclear import Unclear
+from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
+
+_TURNED_ROUND = frozenset(
+    {"undo", "return", "redo", "restore", "other_way", "mirrored", "swapped", "overshot"}
+)
+"""Verbs and flags by which a side that is named may be that of what was done, and not of what is to be done."""
+_MAY_BE_OF_BEFORE = frozenset({"correction", "negation", "complaint"})
+_SAME_M = 1e-6
+
+
+def passed_over(
+    plain: str, language: str, plan: Plan, turns: Sequence[TurnRecord], read: Callable[[str], Plan | None]
+) -> str:
+    """The words of a normalised text that point at an earlier motion and are without effect in `plan`; "" for none.
+
+    `read` makes a plan of a text; None of one that orders nothing.
+    """
+    moved = [turn for turn in turns if turn.moved and turn.plan is not None]
+    if not moved:
+        return ""
+    before = [[*turn.plan.steps] for turn in moved if turn.plan is not None]
+    atoms = atoms_said(plain)
+    return (
+        _other_side(atoms, plan.steps, before[-1])
+        or _measure(plain, language, plan.steps, before)
+        or _likeness(plain, language, atoms, plan.steps, before)
+        or next(
+            (said for said, rest in _without_part(plain, language, len(moved)) if _is_same(plan, rest, read)),
+            "",
+        )
+    )
+
+
+def _is_same(plan: Plan, rest: str, read: Callable[[str], Plan | None]) -> bool:
+    with contextlib.suppress(Unclear):
+        return bool(rest) and read(rest) == plan
+    return False
+
+
+def _other_side(atoms: Sequence[Atom], steps: Sequence[Step], last: Sequence[Step]) -> str:
+    """The one side that is named, where all that has a side in the plan has the other, and nothing was left out."""
+    if len(steps) < len(last) and all(step in last for step in steps):
+        return ""
+    said = {atom.value: atom.text for atom in atoms if atom.kind in ("dir", "rot") and atom.value in SIDES}
+    turned = any(atom.value in _TURNED_ROUND or atom.kind in _MAY_BE_OF_BEFORE for atom in atoms)
+    done = {side for step in steps if (side := _side_of(step))}
+    return next(iter(said.values())) if len(said) == 1 and done and not done & {*said} and not turned else ""
+
+
+def _side_of(step: Step) -> str:
+    if isinstance(step, (Turn, Arc)):
+        return "left" if step.left else "right"
+    if isinstance(step, Drive) and is_sideways(step):
+        return "left" if math.sin(step.direction_rad) > 0 else "right"
+    return ""
+
+
+def _measure(plain: str, language: str, steps: Sequence[Step], before: Sequence[list[Step]]) -> str:
+    """The measure of a figure that is named, where the figure before is only done several times."""
+    last = before[-1]
+    count = len(steps) // len(last)
+    found = _form(language, "measure").search(plain)
+    return found.group() if found is not None and count > 1 and [*steps] == last * count else ""
+
+
+def _likeness(
+    plain: str, language: str, atoms: Sequence[Atom], steps: Sequence[Step], before: Sequence[list[Step]]
+) -> str:
+    """What likens an order without an amount to a motion before, where no motion before was so far."""
+    found = _form(language, "likeness").search(plain)
+    if found is None or any(atom.kind == "q" and not _is_pronoun(atom) for atom in atoms):
+        return ""
+    far = [[step.distance_m for step in each if isinstance(step, Drive)] for each in (*before, steps)]
+    done = [m for each in far[:-1] for m in each if m is not None]
+    new = [m for m in far[-1] if m is not None and not any(abs(m - other) < _SAME_M for other in done)]
+    return found.group() if new and len(steps) == 1 else ""
+
+
+def _is_pronoun(atom: Atom) -> bool:
+    """`The last one`."""
+    return atom.value == "number" and atom.text.isalpha()
+
+
+def _without_part(plain: str, language: str, turns: int) -> Iterator[tuple[str, str]]:
+    """Each part of what was done before that the text names, with the text without it.
+
+    A heading (“step two: turn left”) names none, and that of the last of so many turns only tells it again.
+    """
+    at, part = 0, _form(language, "part")
+    numbers = load_table(language if language in LANGUAGES else LANGUAGES[0], "selections")
+    while (found := part.search(plain, at)) is not None:
+        at = found.end()
+        said = found.groupdict(default="")
+        number = number_said(said, "nth", numbers) or number_said(said, "count", numbers)
+        if number != turns and plain[at : at + 1] not in (*":,，",):
+            yield found.group(), f"{plain[: found.start()]} {plain[at:]}".strip()
+
+
+@cache
+def _form(language: str, name: str) -> Form:
+    return form(language if language in LANGUAGES else LANGUAGES[0], "passed_over", name)
