@@ -195,7 +195,7 @@ def test_a_way_that_is_blocked_is_offered_as_far_as_it_is_free() -> None:
     blocked = talk.session.do("forward 10 m")
     assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
     assert blocked.proposal == Proposal("drive 2.65 m", "Shall I drive forward 2.65 m?")
-    assert blocked.reply.endswith("so I am not moving. 2.65 m are free. Shall I drive forward 2.65 m?")
+    assert blocked.reply.endswith("so I do not drive that. 2.65 m are free. Shall I drive forward 2.65 m?")
     done = talk.session.do("yes")
     assert done.outcome == "completed"
     assert done.path_m == pytest.approx(2.65, abs=0.01)
@@ -224,7 +224,7 @@ def test_a_place_inside_an_obstacle_is_not_called_reached(tmp_path: Path) -> Non
     talk = Talk(world=str(file))
     blocked = talk.session.do("forward 20 cm, then go to the table")
     assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
-    assert blocked.reply.startswith("The table is in the way there:")
+    assert blocked.reply.startswith("There, the table is in the way:")
     assert "I can get as near as 0.55 m." in blocked.reply
     assert blocked.proposal is not None
     assert blocked.proposal.plan_text == "drive 0.2 m\ngo to 1.45 0"

@@ -136,7 +136,7 @@ def test_what_only_the_lidar_sees_is_in_the_way_and_the_rest_is_offered() -> Non
     blocked = talk.session.do("forward 5 m")
     assert (blocked.outcome, blocked.path_m) == ("refused", 0.0)
     assert re.match(
-        r"Something is in the way: I would be within 0\.04 m of it after 2\.\d\d m, so I am not moving\.",
+        r"Something is in the way: I would be within 0\.04 m of it after 2\.\d\d m, so I do not drive that\.",
         blocked.reply,
     )
     assert blocked.proposal is not None

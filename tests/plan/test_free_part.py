@@ -44,10 +44,12 @@ def test_the_free_part_is_offered_with_all_that_comes_before(asked: str, offered
     assert " ".join(possible(asked).split()) == offered
 
 
-def test_the_reason_says_how_much_is_free() -> None:
-    found = rehearsed("drive 0.5 m\ndrive 5 m").refusal
+@pytest.mark.parametrize("text", ["drive 5 m", "drive 0.5 m\ndrive 5 m", "drive 1 m\nwait 1 s\ndrive 5 m"])
+def test_the_reason_says_how_much_of_the_whole_way_is_free(text: str) -> None:
+    found = rehearsed(text).refusal
     assert found is not None
-    assert found.reason.values["free_m"] == 1.25
+    assert found.reason.values["free_m"] == 1.75
+    assert found.reason.values["total_m"] == pytest.approx(1.76, abs=0.01)
 
 
 def test_a_turn_is_offered_as_far_as_it_goes() -> None:

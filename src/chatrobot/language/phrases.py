@@ -107,11 +107,19 @@ def render_reason(reason: Reason, language: str) -> str:
     if "obstacle_aliases" in values:
         names_of_it = (str(values["obstacle"]), *str(values["obstacle_aliases"]).split(", "))
         values["obstacle"] = by_language(names_of_it, language)[0]
+    if "obstacle" in values:
+        values["the_obstacle"] = name_of(str(values["obstacle"]), language)
     special = (
         f"{reason.code}_{kind}" for key, kind in (("obstacle", "named"), ("namespace", "in")) if key in values
     )
     code = next((code for code in special if code in _phrases("en")), reason.code)
     return say(language, code, **values)
+
+
+def name_of(thing: str, language: str) -> str:
+    """The name of a thing in a sentence; one with a number takes no article."""
+    code = "the_numbered" if any(map(str.isdigit, thing)) else "the_obstacle"
+    return say(language, code, obstacle=thing)
 
 
 def _stop_cause(source: str, why: str, language: str) -> str:

@@ -180,17 +180,16 @@ class Planner:
         self._kernel = make_kernel(profile)
         self._fence_rule = fence_rules(profile)
         self._base = world
-        self._known = self._routes_in(world)
+        self._base_routes = None if world.is_empty else GridRoutePlanner(world, profile)
+        self._known = world, self._base_routes
         self.added: tuple[Obstacle, ...] = ()
         """What was put into the world while a simulation runs."""
-
-    def _routes_in(self, world: World) -> tuple[World, GridRoutePlanner | None]:
-        return world, None if world.is_empty else GridRoutePlanner(world, self._profile)
 
     def add(self, added: tuple[Obstacle, ...]) -> None:
         """Plan in the world with these obstacles from now on, instead of those that were added before."""
         self.added = added
-        self._known = self._routes_in(self._base.with_added(added))
+        world, before = self._base.with_added(added), self._base_routes
+        self._known = world, GridRoutePlanner(world, self._profile, before) if added else before
 
     @property
     def world(self) -> World:

@@ -54,7 +54,7 @@ def leg_at(legs: Sequence[Leg], row: int) -> tuple[Leg, int]:
 def part_up_to(
     plan: Plan, context: LoweringContext, legs: Sequence[Leg], row: int, most_m: float = math.inf
 ) -> tuple[Plan | None, dict[str, float]]:
-    """Return the part of `plan` up to a row of its path, and how much of the motion there is free.
+    """Return the part of `plan` up to a row of its path, and how far the whole way is free, or how much of a turn.
 
     Args:
         context: from where the plan begins.
@@ -69,6 +69,8 @@ def part_up_to(
     of_step = [found.item for found in legs if found.item.number == leg.item.number]
     way = rows[first_row:]
     share, end_row, free = _free_share(leg.item.motion, way, most_m - driven_m)
+    if "free_m" in free:
+        free = {"free_m": round(driven_m + free["free_m"], 2)}
     here = Pose(*(float(value) for value in way[end_row, 1:]))
     if not free and here.distance_to(context.pose) < LEAST_M:
         return None, {}

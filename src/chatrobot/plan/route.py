@@ -8,6 +8,7 @@ straight wherever that comes no nearer to anything than the way did.
 from __future__ import annotations
 
 import heapq
+import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -81,10 +82,13 @@ class GridRoutePlanner:
     Args:
         world: what is known.
         profile: whose footprint has to fit. Its whole circle does, so that the robot can turn anywhere on its way.
+        before: plans in the world before something was put there, and so knows what stands where there was a way.
     """
 
-    def __init__(self, world: KnownWorld, profile: RobotProfile) -> None:
-        self._world = world
+    def __init__(
+        self, world: KnownWorld, profile: RobotProfile, before: GridRoutePlanner | None = None
+    ) -> None:
+        self._world, self._before = world, before
         self._needed_m = profile.footprint_radius_m + MARGIN_M
         self._inner_m = _inscribed_radius(profile.footprint)
         self._grids: dict[tuple[int, int, int, int], _Grid] = {}
@@ -122,9 +126,25 @@ class GridRoutePlanner:
             goal = free
         cells = self._search(grid, start, goal)
         if cells is None:
-            return NoRoute(Reason("no_route", {"distance_m": _length((start.x_m, start.y_m), goal)}))
+            distance_m = _length((start.x_m, start.y_m), goal)
+            return NoRoute(Reason("no_route", {"distance_m": distance_m, **self._in_the_way(start, goal)}))
         points = [(start.x_m, start.y_m), *(grid.point(*cell) for cell in cells[1:-1]), goal]
         return Route(tuple(self._pulled_straight(points)[1:]))
+
+    def _in_the_way(self, start: Pose, goal: Point) -> dict[str, str]:
+        """What was put where there was a way before."""
+        way = self._before.route(start, goal, named_place=True) if self._before is not None else None
+        if not isinstance(way, Route) or self._before is None:
+            return {}
+        for leg in itertools.pairwise(((start.x_m, start.y_m), *way.waypoints)):
+            points = _points(*leg)
+            room_m, room_before_m = (
+                world.clearance_m(points) for world in (self._world, self._before._world)
+            )
+            blocked = np.flatnonzero((room_m < self._needed_m) & (room_m < room_before_m))
+            if len(blocked):
+                return obstacle_values(self._world.obstacle_names_at(*points[blocked[0]].tolist()))
+        return {}
 
     def _clearance_at(self, point: Point) -> float:
         return float(self._world.clearance_m(np.array([point]))[0])
@@ -212,13 +232,9 @@ class GridRoutePlanner:
 
     def _along(self, start: Point, end: Point) -> tuple[Floats, Floats]:
         """Return distances from `start` and clearances, each [n], along a straight leg."""
-        length = _length(start, end)
-        count = min(MAX_CELLS, max(2, math.ceil(length / LEG_SPACING_M) + 1))
-        share = np.linspace(0.0, 1.0, count)
-        points = np.column_stack(
-            (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]))
-        )
-        return share * length, self._world.clearance_m(points)
+        points = _points(start, end)
+        along = np.linspace(0.0, _length(start, end), len(points))
+        return along, self._world.clearance_m(points)
 
     def _pulled_straight(self, points: list[Point]) -> list[Point]:
         """From each point on to the farthest one that a leg reaches without coming nearer to anything."""
@@ -237,6 +253,13 @@ class GridRoutePlanner:
             pulled.append(points[low])
             at = low
         return pulled
+
+
+def _points(start: Point, end: Point) -> Floats:
+    """Points of a straight leg, [n, 2], at most `LEG_SPACING_M` apart."""
+    count = min(MAX_CELLS, max(2, math.ceil(_length(start, end) / LEG_SPACING_M) + 1))
+    points: Floats = np.linspace(start, end, count)
+    return points
 
 
 def _candidates(low: int, high: int) -> list[int]:
