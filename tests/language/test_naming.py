@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from chatrobot.core.geometry import Pose
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.context import Context, Dialogue, RobotState
+from chatrobot.language.context import Context, Dialogue, RobotState, Thing
 from chatrobot.language.interpretation import Interpretation, Placement
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.sim.world import World
@@ -82,7 +84,7 @@ def test_a_thing_is_put_where_it_is_told_from_the_robot(
     text: str, name: str, at: tuple[float, float]
 ) -> None:
     context = Context(Dialogue(), RobotState(Pose(1.0, 1.0)))
-    assert OfflineInterpreter(MECANUM).interpret(text, context).obstacle == Placement(name, at)
+    assert OfflineInterpreter(MECANUM).interpret(text, context).obstacles == (Placement(name, at),)
 
 
 def test_on_a_real_robot_nothing_is_put_anywhere() -> None:
@@ -90,4 +92,50 @@ def test_on_a_real_robot_nothing_is_put_anywhere() -> None:
     assert understanding.interpret("put a box in front of you").outcome == "refused"
     understanding.is_simulated = True
     assert understanding.interpret("put a box in front of you").outcome == "answered"
-    assert understanding.interpret("take the box away").obstacle == Placement("box")
+    assert understanding.interpret("take the box away").obstacles == (Placement("box"),)
+
+
+def taken_away(text: str, *added: str) -> tuple[str, ...]:
+    """What a text takes out of a simulation that these were put into, by its name there."""
+    things = (Thing(("sofa",), math.hypot), *(Thing((name,), math.hypot, is_added=True) for name in added))
+    meant = OfflineInterpreter(MECANUM).interpret(text, Context(things=things))
+    assert (meant.outcome, meant.plan) == ("answered", None)
+    assert all(thing.at_m is None for thing in meant.obstacles)
+    return tuple(thing.name for thing in meant.obstacles)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "remove obstacle 3", "take away obstacle number three", "Take obstacle 3 away, please",
+        "拿走障碍物3", "把三号障碍物拿走", "Entferne Hindernis 3", "Nimm das Hindernis Nummer 3 weg",
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("name", ["Obstacle 3", "障碍物3", "Hindernis 3"])
+def test_an_obstacle_is_taken_away_by_its_number(text: str, name: str) -> None:
+    assert taken_away(text, "Obstacle 1", name, "Obstacle 13", "box") == (name,)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "take all obstacles away", "remove all of the obstacles", "clear the obstacles",
+        "把所有障碍物都拿走", "Nimm alle Hindernisse weg",
+    ],
+)  # fmt: skip
+def test_all_that_was_put_there_is_taken_away(text: str) -> None:
+    assert taken_away(text, "Obstacle 1", "box") == ("Obstacle 1", "box")
+    assert taken_away(text) == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("remove all boxes", "box"), ("把全部箱子拿走", "箱子"), ("entferne alle Kisten", "Kiste")],
+)
+def test_all_things_of_a_kind_are_taken_away(text: str, name: str) -> None:
+    assert taken_away(text, "Obstacle 1", name, f"{name} 2") == (name, f"{name} 2")
+
+
+def test_what_nobody_put_there_is_named_as_it_was_said() -> None:
+    assert taken_away("remove obstacle 7", "Obstacle 1", "Obstacle 17") == ("obstacle 7",)
+    assert taken_away("remove all boxes", "Obstacle 1") == ("box",)

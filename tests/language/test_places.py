@@ -95,7 +95,7 @@ def test_no_place_is_offered_where_a_yes_would_not_be_understood(said: str) -> N
 def test_a_place_that_is_as_near_as_another_is_not_named() -> None:
     places = {"desk1": Pose(1.0, 0.0, 0.0), "desk2": Pose(2.0, 0.0, 0.0), "docka": Pose(), "dockb": Pose()}
     meant = OfflineInterpreter(MECANUM).interpret("go to dockc", Context(world_places=places))
-    assert (meant.outcome, meant.code) == ("unclear", "unknown_part")
+    assert (meant.outcome, meant.code, meant.proposal) == ("unclear", "where_to", None)
 
 
 ROOMS = ("kitchen", "sofa", "tv", "front door", "open-plan office", "living room", "前台", "打印机")

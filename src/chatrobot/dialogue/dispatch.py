@@ -279,12 +279,12 @@ class Dispatch:
             self._understanding.close_question()
             self._requests.conclude(utterance.turn, "stopped", meant.reply)
         else:
-            if meant.obstacle:
-                self._place(meant.obstacle)
+            for thing in meant.obstacles:
+                self._place(thing)
             self._understanding.note_unmoved(utterance.text, meant)
             self._llm.note(utterance.text, "", f"{meant.outcome}: {meant.reply}")
-            reason, proposal = parting(meant), meant.proposal
-            self._requests.conclude(utterance.turn, meant.outcome, meant.reply, None, reason, proposal)
+            reason = parting(meant)
+            self._requests.conclude(utterance.turn, meant.outcome, meant.reply, None, reason, meant.proposal)
 
     def _place(self, thing: Placement) -> None:
         """Put it into the simulation or take it away; Motion's notice says what came of it."""

@@ -15,11 +15,13 @@ from chatrobot.core.files import write_whole
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.core.sensed_events import ObstacleChanged
-from chatrobot.language.context import Place
+from chatrobot.language.context import Place, Thing
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
+from chatrobot.plan.base import expanded
 from chatrobot.plan.context import Route
 from chatrobot.plan.primitives.drive import MAX_PLACE_CHARS
 from chatrobot.plan.ring import RING_MARGIN_M, ring_around
+from chatrobot.plan.steps import Face, Go, Plan, Say, Wait
 from chatrobot.robots.profile import RobotProfile
 from chatrobot.sim.shapes import Point
 from chatrobot.sim.world import World
@@ -141,11 +143,12 @@ class RestWatch:
 
     def begin(self, finished: Finished) -> str:
         """Compare where the robot was when the turn that has ended began."""
-        return self._displaced(finished.start)
+        return self._displaced(finished.start) if finished.duration_s else ""
 
     def end(self, finished: Finished) -> str:
         """Note where a turn has ended, and whether somebody else drives on."""
-        self._rest = finished.pose
+        if finished.duration_s:  # what never began may end while another one drives
+            self._rest = finished.pose
         handed_over = finished.reason is not None and finished.reason.code == "handed_over"
         return MOVED if handed_over else ""
 
@@ -169,6 +172,10 @@ class MapWays:
         """What is known of the surroundings, with what a person has put there meanwhile."""
         self.any = self if world.obstacles else None
         """None where nothing is known to stand anywhere."""
+        named = (one for one in world.obstacles if one.name)
+        self.things = tuple(
+            Thing((one.name, *one.aliases), one.shape.distance_m, one.is_added) for one in named
+        )
 
     def note_obstacle(self, event: ObstacleChanged) -> None:
         """Take note that an obstacle has come, moved or gone."""
@@ -219,6 +226,14 @@ class MapWays:
         return ring_around(
             self.world.obstacles[k].shape.outline(), self._profile.footprint_radius_m + RING_MARGIN_M
         )
+
+
+def ends_alike(plan: Plan) -> bool:
+    """Return whether a plan ends alike wherever it begins: it only goes to points of the map, and faces headings."""
+    return all(
+        isinstance(step, (Face, Wait, Say)) or (isinstance(step, Go) and step.frame == "odom")
+        for step in expanded(plan.steps)
+    )
 
 
 def _length_m(way: Sequence[Point]) -> float:

@@ -14,6 +14,7 @@ from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
 from chatrobot.dialogue.places import UNMEASURED, MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
+from chatrobot.language.consent import unasked
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
 from chatrobot.language.interpretation import Interpretation, LanguageCode
@@ -103,9 +104,9 @@ class Understanding:
         if meant.remember_place and not self.hears_robot:  # nobody knows which place this is
             code = UNHEARD if self.is_measured else "answer_unmeasured"
             meant = Interpretation("refused", say(self.language, code), self.language)
-        if meant.obstacle and not self.is_simulated:
+        if meant.obstacles and not self.is_simulated:
             meant = Interpretation("refused", say(self.language, "only_simulated"), self.language)
-        return meant
+        return unasked(meant, *self._last)
 
     def why(self) -> list[str]:
         """Return lines on how the last text was read, and what came of it."""
@@ -119,7 +120,7 @@ class Understanding:
         without_heading = self._without_heading - dialogue.places.keys()
         ways = self.ways
         known = (self.world_places, without_heading, self._names, ways.any, ways.ring, ways.along)
-        return Context(dialogue, self._state, *known, self.language)
+        return Context(dialogue, self._state, *known, self.language, ways.things)
 
     def context(self, under_way: Sequence[Instruction] = ()) -> Context:
         """Return what is known now, to read a text by, with these as turns before."""
@@ -324,7 +325,8 @@ class Understanding:
         if finished is None:
             self._record(record)
             return
-        self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
+        if finished.duration_s:
+            self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         self._lose(self._rest.begin(finished))
         measured = replace(
             record,

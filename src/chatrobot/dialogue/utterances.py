@@ -283,7 +283,7 @@ class NextUtterance:
         return not (meant.is_about_turn_before or self._llm.wants(utterance.text, meant))
 
 
-NOT_UNDERSTOOD = frozenset({"unknown_part", "nothing_to_do", "empty", "too_long"})
+NOT_UNDERSTOOD = frozenset({"unknown_part", "nothing_to_do", "empty", "too_long", "where_to"})
 """Of the questions back, those that what happens until then cannot answer."""
 
 

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
+from typing import TYPE_CHECKING
 
 from chatrobot.language.data_files import REPLY_LANGUAGES, load_table
+from chatrobot.language.phrases import say
+
+if TYPE_CHECKING:
+    from chatrobot.language.context import Context
+    from chatrobot.language.interpretation import Interpretation
 
 _MARK = r"[\s,.!，。！、]"
 _GAP = f"{_MARK}*"
@@ -22,6 +29,20 @@ def read_consent(text: str) -> bool | None:
 def wants_to_edit(text: str) -> bool:
     """Neither: it is to be changed first."""
     return _consists_of("edit", text)
+
+
+def unasked(meant: Interpretation, text: str, context: Context) -> Interpretation:
+    """What `text` means; that there is nothing to answer, where it only answers what nobody asked.
+
+    A no that comes next after a motion may be about that.
+    """
+    agrees, dialogue = read_consent(text), context.dialogue
+    is_asked = bool(dialogue.pending) and read_consent(dialogue.pending) is None
+    may_correct = agrees is False and bool(dialogue.turns) and dialogue.turns[-1].moved
+    if agrees is None or meant.outcome != "unclear" or meant.proposal is not None or is_asked or may_correct:
+        return meant
+    reply = say(meant.language, "nothing_to_answer")
+    return replace(meant, reply=reply, unaccounted="", code="nothing_to_answer")
 
 
 def after_consent(text: str) -> str | None:

@@ -5,10 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 from chatrobot.core.geometry import ORIGIN, ZERO_TWIST, Pose, Twist
+from chatrobot.language.compiled import Key
+from chatrobot.language.data_files import LANGUAGES
+from chatrobot.language.gloss import gloss
 from chatrobot.language.interpretation import LanguageCode, Usual
 from chatrobot.language.ledger import Ledger, TurnRecord
+from chatrobot.language.lexicon import cut
+from chatrobot.language.normalise import normalise
+from chatrobot.language.phrases import by_language
 from chatrobot.plan.steps import Plan
 
 
@@ -18,6 +25,25 @@ class Place:
 
     pose: Pose
     usable: bool = True
+
+
+class Thing(NamedTuple):
+    """Something that stands on the map, by its names; `off_m` tells how far a point is from it, metres.
+
+    `is_added`: a person put it into the simulation, and may take it away.
+    """
+
+    names: tuple[str, ...]
+    off_m: Callable[[float, float], float]
+    is_added: bool = False
+
+    def keys(self, language: str) -> list[Key]:
+        """Return its names as they are read where they are said in that language."""
+        keys = [cut(normalise(name)) for name in self.names]
+        if language not in LANGUAGES:  # with a number behind it: a noun alone is read as a remark
+            spoken = by_language(self.names, language)[0]
+            keys.append(cut(normalise(gloss(f"{spoken} 1", language).text))[:-1])
+        return keys
 
 
 @dataclass(frozen=True)
@@ -86,6 +112,7 @@ class Context:
     `places_without_heading` are those of them that it gives no heading. `ways` tells how long the way from one pose to
     another is on the map, metres; `rings` the corners of the way
     once around what stands at a pose, in the odom frame, none where nothing does; both are None where there is no map.
+    `things` is what has a name and stands in the way there.
     `language` is that of what was said before;
     None where only the turns tell it.
     """
@@ -99,6 +126,7 @@ class Context:
     rings: Callable[[Pose], Sequence[tuple[float, float]]] | None = None
     along: Callable[[Pose, Pose, float], tuple[float, float] | None] | None = None
     language: LanguageCode | None = None
+    things: tuple[Thing, ...] = ()
 
     @property
     def has_ways(self) -> bool:

@@ -84,11 +84,19 @@ def _known(text: str, language: LanguageCode) -> str:
 def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
     """What a gloss means, with its words as the person wrote them."""
     reply, part = meant.reply, said.as_said(meant.unaccounted)
-    obstacle = meant.obstacle and replace(meant.obstacle, name=said.as_said(meant.obstacle.name))
+    put = {
+        one.name: said.as_said(one.name)
+        for one in meant.obstacles
+        if one.at_m is not None or MARK in one.name
+    }
     place = said.as_said(meant.remember_place).lower()
-    things = [(meant.obstacle.name, obstacle.name)] if meant.obstacle and obstacle else []
     taught = {name: said.as_said(name).lower() for name in meant.define}
-    for read, written in ((meant.unaccounted, part), (meant.remember_place, place), *things, *taught.items()):
+    for read, written in (
+        (meant.unaccounted, part),
+        (meant.remember_place, place),
+        *put.items(),
+        *taught.items(),
+    ):
         reply = _quoted(reply, read, written)
     offer = meant.proposal
     if offer is not None:
@@ -101,7 +109,7 @@ def _as_said(meant: Interpretation, said: Gloss) -> Interpretation:
         plan=_as_written(meant.plan, said) if meant.plan is not None else None,
         define={taught[name]: plan for name, plan in meant.define.items()},
         remember_place=place,
-        obstacle=obstacle,
+        obstacles=tuple(replace(one, name=put.get(one.name, one.name)) for one in meant.obstacles),
         renamed={
             said.as_said(name).lower(): said.as_said(new).lower() for name, new in meant.renamed.items()
         },
@@ -127,7 +135,7 @@ def _quoted(reply: str, read: str, written: str) -> str:
     """A reply that quotes what was written instead of what was read."""
     if not read:
         return reply
-    return re.sub(rf"(?<=[{_QUOTES}]){re.escape(read)}", lambda _: written, reply, count=1)
+    return re.sub(rf"(?<=[{_QUOTES}]){re.escape(read)}(?!\w)", lambda _: written, reply, count=1)
 
 
 def _as_written(plan: Plan, said: Gloss) -> Plan:

@@ -61,7 +61,7 @@ class Interpretation:
     are for the dialogue's memory and hold from the moment the session accepts the turn; `remember_place` is where
     the robot stands now, `walk` what of the ledger of turns the plan undoes or does again; `corrects`: it puts the
     turn before right; `renamed`: what a taught place or word is called from now on, nothing where it is forgotten;
-    `obstacle`: what is to be put into the simulation or taken out of it; `usual`: what is set from now on;
+    `obstacles`: what is to be put into the simulation or taken out of it; `usual`: what is set from now on;
     `open_text`: what a question asks about, where that is not the text itself.
     """
 
@@ -78,7 +78,7 @@ class Interpretation:
     walk: Walk | None = None
     corrects: bool = False
     renamed: Mapping[str, str] = field(default_factory=dict)
-    obstacle: Placement | None = None
+    obstacles: tuple[Placement, ...] = ()
     usual: Usual = field(default_factory=Usual)
     open_text: str = ""
 

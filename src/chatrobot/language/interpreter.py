@@ -71,6 +71,7 @@ from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
 from chatrobot.language.usual import read_limit
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
+from chatrobot.language.where_to import where_to
 from chatrobot.language.wishes import of_wish
 from chatrobot.plan.steps import Plan, Step, Wait
 from chatrobot.robots.profile import RobotProfile
@@ -145,8 +146,8 @@ class OfflineInterpreter:
                 or (meant if meant is not None and meant.proposal is not None else None)
                 or self._likeliest(problem, text, reading)
             )
-            asked = asked or asked_back(problem, told_in(text, language, context), context.dialogue.last_text)
-            return replace(asked, corrects=says_meant(text))
+            back = asked_back(problem, told_in(text, language, context), context.dialogue.last_text)
+            return replace(asked or where_to(problem, text, reading) or back, corrects=says_meant(text))
 
     def _passed_over(self, text: str, plan: Plan | None, language: LanguageCode, context: Context) -> str:
         def read(rest: str) -> Plan | None:

@@ -13,6 +13,7 @@ from chatrobot.language.normalise import normalise
 _QUOTING = frozenset(
     {
         "unknown_part",
+        "where_to",
         "unclear_motion",
         "did_you_mean",
         "how_long_a_step",

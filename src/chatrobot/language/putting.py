@@ -1,4 +1,4 @@
-"""`Put a box 1 m in front of you`: something is put into a simulation, or taken away. It moves nothing."""
+"""`Put a box 1 m in front of you`, `remove all boxes`: a simulation is changed. It moves nothing."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from chatrobot.language.context import Context
 from chatrobot.language.data_files import load_table
 from chatrobot.language.interpretation import Interpretation, LanguageCode, Placement
 from chatrobot.language.lexicon import lexicon
+from chatrobot.language.numbers import read_number
 from chatrobot.language.phrases import say
 from chatrobot.language.quantities import read_quantities
 from chatrobot.language.rules import Form, forms_of
@@ -28,7 +29,8 @@ def _patterns(language: str, name: str) -> tuple[Form, ...]:
     def sources() -> list[str]:
         table = load_table(language, "putting")
         things = f"(?P<thing>{'|'.join(table['things'])})"
-        return [pattern.replace("THING", things) for pattern in table[name]]
+        said = [frame.replace("WHICH", which) for frame in table[name] for which in table["which"]]
+        return [pattern.replace("THING", things) for pattern in dict.fromkeys(said)]
 
     return forms_of(f"putting_{language}_{name}", sources)
 
@@ -44,15 +46,41 @@ def read_putting(plain: str, language: LanguageCode, context: Context) -> Interp
         found = next(filter(None, (pattern.fullmatch(said) for pattern in _patterns(language, kind))), None)
         if found is None:
             continue
-        name = found["thing"]
-        if kind == "remove":
-            return _changing("removing", Placement(name), language)
-        return _changing("putting", Placement(name, _where(found.groupdict(), language, context)), language)
+        if kind == "put":
+            at_m = _where(found.groupdict(), language, context)
+            return _changing("putting", [Placement(found["thing"], at_m)], language)
+        names = _taken_away(found.groupdict(), language, context)
+        return _changing("removing", [Placement(name) for name in names], language)
     return None
 
 
-def _changing(code: str, obstacle: Placement, language: LanguageCode) -> Interpretation:
-    return Interpretation("answered", say(language, code, name=obstacle.name), language, obstacle=obstacle)
+def _changing(code: str, obstacles: list[Placement], language: LanguageCode) -> Interpretation:
+    names = say(language, "join").join(one.name for one in obstacles)
+    reply = say(language, code, name=names) if obstacles else say(language, "no_obstacle_put")
+    return Interpretation("answered", reply, language, obstacles=tuple(obstacles))
+
+
+def _taken_away(said: Mapping[str, str | None], language: str, context: Context) -> list[str]:
+    """The names of what is to be taken away; as it was said, where nothing like it was put there."""
+    thing, number = said["thing"] or "", _count(said.get("number") or "")
+    is_any = thing in load_table(language, "putting")["any"]
+    added = {
+        one.names[0]: ["".join(key) for key in one.keys(language)] for one in context.things if one.is_added
+    }
+    if said.get("all"):
+        of_kind = re.compile(rf"{re.escape(thing)}\d*")
+        found = [name for name, keys in added.items() if is_any or any(map(of_kind.fullmatch, keys))]
+        return found or [thing][: len(added)]
+    found = [name for name, keys in added.items() if f"{thing}{number}" in keys]
+    if not found and is_any:
+        found = [name for name in added if re.search(rf"(?<!\d){number}$", name)]
+    return found if len(found) == 1 else [f"{thing} {number}".strip()]
+
+
+def _count(text: str) -> str:
+    """The digits of a number; what else it is, as it is."""
+    number = read_number(tokenise(text, lexicon(), {}), 0) if text else None
+    return f"{number.value:g}" if number is not None else text
 
 
 def _where(said: Mapping[str, str | None], language: str, context: Context) -> tuple[float, float]:

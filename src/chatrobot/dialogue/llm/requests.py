@@ -47,7 +47,12 @@ class _Turn:
     pins: bool
 
 
-NO_MODEL_HELPS = frozenset({"nothing_to_undo", "nothing_undone", "empty", "place_unusable"})
+NO_MODEL_HELPS = frozenset(
+    {
+        "nothing_to_undo", "nothing_undone", "empty", "place_unusable",
+        "where_to", "only_in_the_way", "nothing_to_answer",
+    }
+)  # fmt: skip
 """Codes of what is not done for a reason that no model knows more of."""
 
 
