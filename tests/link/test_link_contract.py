@@ -168,6 +168,21 @@ def test_a_turn_that_has_begun_is_stopped_by_a_cancel_and_gives_its_place_to_non
     assert is_at_rest(rig)
 
 
+def test_what_is_driven_goes_on_where_a_plan_that_is_tried_is_refused(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 0.5 m")
+    moving(rig, 1)
+    send_plan(rig, 2, "drive 0.1 m at 50 m/s", mode="replace", tries=True)
+    assert finished(rig, 2).outcome == "refused"
+    assert finished(rig, 1).outcome == "completed"
+
+
+def test_a_plan_that_passes_its_trial_takes_the_place_of_what_is_driven(rig: LinkRig) -> None:
+    send_plan(rig, 1, "drive 5 m")
+    moving(rig, 1)
+    send_plan(rig, 2, "drive 0.1 m back", mode="replace", tries=True)
+    assert (finished(rig, 1).outcome, finished(rig, 2).outcome) == ("stopped", "completed")
+
+
 def test_a_full_queue_refuses_rather_than_forgets(rig: LinkRig) -> None:
     send_plan(rig, 1, "wait 1000 s")
     for turn in range(2, 13):

@@ -260,8 +260,9 @@ class Dispatch:
         elif self._goals.options.rehearse_only and (meant.remember_place or meant.renamed):
             told = say(meant.language, "only_rehearsed")
             meant = replace(meant, reply=told, remember_place="", renamed={})
-        elif paused is None and meant.outcome == "unclear" and meant.proposal is None:
-            meant = self._while_driving.beside(meant)
+        elif paused is None and (meant.outcome == "unclear" or meant.proposal is not None):
+            asked, meant = meant, self._while_driving.beside(meant)
+            self._proposals.is_left_unasked = asked.proposal is not None and meant.proposal is None
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         interpreted = Interpreted(utterance.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
@@ -339,10 +340,11 @@ class Dispatch:
         self, utterance: Utterance, meant: Interpretation, plan_text: str, instead_of: int | None
     ) -> None:
         mode = "append" if meant.append else self._goals.mode
+        tries = mode == "replace" and not self._llm.is_busy  # a model's turn has been given up by then
         if mode == "replace":
             self._llm.replace()
         if mode == "append" and self._resuming.paused is not None:
             self._emit(Notice(utterance.turn, Reason("waits_behind_pause")))
         self._requests.track(utterance.turn, utterance.text, meant, instead_of)
         asks = utterance.kind == "edited_plan"
-        self._goals.plan(utterance.turn, plan_text, mode, asks=asks, instead_of=instead_of)
+        self._goals.plan(utterance.turn, plan_text, mode, asks=asks, instead_of=instead_of, tries=tries)

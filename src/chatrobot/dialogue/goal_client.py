@@ -52,15 +52,18 @@ class GoalClient:
         *,
         asks: bool = False,
         instead_of: int | None = None,
+        tries: bool = False,
     ) -> None:
         """Have Motion rehearse and drive a plan.
 
         Args:
             asks: it waits for a yes whatever the options.
             instead_of: the turn whose place it takes; it is refused where that waits no more.
+            tries: what is driven goes on where this plan is refused.
         """
         place = {} if instead_of is None else {"instead_of": instead_of}
-        self._send("plan", turn, asks, mode=mode, plan_text=plan_text, **place)
+        trial = {"tries": True} if tries else {}
+        self._send("plan", turn, asks, mode=mode, plan_text=plan_text, **place, **trial)
 
     def program(
         self,

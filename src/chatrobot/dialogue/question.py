@@ -13,12 +13,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from chatrobot.core.event import Proposal
 from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, Started, Telemetry
+from chatrobot.core.geometry import Pose
+from chatrobot.core.reason import Reason
+from chatrobot.dialogue.places import ends_alike
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance
 from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.link.motion_link import Approval
+from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
 
 if TYPE_CHECKING:
@@ -71,6 +75,12 @@ class _Offered(NamedTuple):
     proposal: Proposal
     approval: Approval
     is_placed: bool  # whether the robot had said where it is; until then nobody can see that it was moved
+    is_driven: bool  # whether the robot is on its way, and so will be elsewhere when the yes comes
+
+    def lapsed(self, plan: Plan, now_s: float, pose: Pose) -> Reason | None:
+        """Return why a yes to `plan` is worth nothing any more; None where it counts."""
+        is_anywhere = self.is_driven and ends_alike(plan)
+        return self.approval.lapsed(now_s, self.approval.start if is_anywhere else pose)
 
 
 class Proposals:
@@ -91,11 +101,14 @@ class Proposals:
         self.rehearsed, self._asked_at_s = Question(), 0.0
         self._is_void_turn = is_void_turn
         self._offered: _Offered | None = None
+        self.is_left_unasked = False
+        """The last text was understood as a plan that no yes counts for: that yes, or a `go`, is no order, either."""
         self._driving: frozenset[int] = frozenset()
 
     def declines_motion(self, text: str) -> bool:
         """Return whether `text` says no to what moves, and not to an offer, or a plan that waits. From any thread."""
-        is_asked = self._offered is not None or (self.rehearsed.turn is not None and not self._driving)
+        waits = self.rehearsed.turn is not None and not self._driving
+        is_asked = self._offered is not None or self.is_left_unasked or waits
         return not is_asked and read_consent(text) is False
 
     def hear(self, event: Event) -> None:
@@ -112,17 +125,21 @@ class Proposals:
         if isinstance(event, Result) and event.proposal is not None:
             approval = Approval(time.monotonic(), event.pose or self._understanding.pose)
             known = self._understanding.known_pose
-            self._offered = _Offered(event.turn, event.proposal, approval, known is not None)
+            is_driven = bool(self._driving)
+            self._offered = _Offered(event.turn, event.proposal, approval, known is not None, is_driven)
         elif isinstance(event, Telemetry) and self._offered is not None and not self._offered.is_placed:
             if (here := self._understanding.known_pose) is not None:
                 approval = replace(self._offered.approval, start=here)
                 self._offered = self._offered._replace(approval=approval, is_placed=True)
         elif isinstance(event, Started):
-            self._offered = None
+            self._offered, self.is_left_unasked = None, False
         if isinstance(event, Started):
             self._driving |= {event.turn}
         elif isinstance(event, Finished):
             self._driving -= {event.turn}
+            if self._offered is not None and not self._driving and self._offered.is_driven:
+                approval = replace(self._offered.approval, start=event.pose)
+                self._offered = self._offered._replace(approval=approval, is_driven=False)
 
     def awaits(self, utterance: Utterance) -> bool:
         """Return whether it answers a rehearsed plan that waits for a yes: said after the question, or next after what
@@ -150,15 +167,20 @@ class Proposals:
             code = "approved" if agrees else "offer_declined"
             return Interpretation("answered", say(language, code), language)
         offered, self._offered = self._offered, None
+        is_left, self.is_left_unasked = self.is_left_unasked, False
+        yes = read_consent(utterance.text) if utterance.kind == "text" else None
+        if is_left and yes is not None:
+            code = "approval_robot_moved" if yes else "offer_declined"
+            return Interpretation("refused" if yes else "answered", say(language, code), language)
         if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
             return None
-        yes, plan = read_consent(utterance.text), parse_plan(offered.proposal.plan_text)
+        plan = parse_plan(offered.proposal.plan_text)
         changed = self._understanding.amended(plan, utterance.text) if yes is None else plan
         if changed is None:
             return None
         if yes is False:
             return Interpretation("answered", say(language, "offer_declined"), language)
-        lapse = offered.approval.lapsed(utterance.at_s, self._understanding.pose)
+        lapse = offered.lapsed(changed, utterance.at_s, self._understanding.pose)
         if lapse is not None:
             return Interpretation("refused", render_reason(lapse, language), language)
         return self._understanding.accept(changed)

@@ -94,6 +94,8 @@ class Resuming:
         """Plan text of what was left of the plan that was stopped last, as measured."""
         self._was_stopped = False
         self._stopped_by: Reason | None = None
+        self.was_replaced = False
+        """An order that came after it has ended what is left."""
         self.ended_by = Reason("cause_unknown")
         """Why the plan that was paused last is not gone on with."""
         self.paused: Paused | None = None
@@ -115,11 +117,14 @@ class Resuming:
 
     def _note_rest(self, event: Finished) -> None:
         """Note what is left; what waited behind what one stop ended is left after it."""
+        if event.outcome == "refused" and not event.executed:
+            return  # it changes nothing of what was stopped before
         self._was_stopped = event.outcome == "stopped"
         waited = self._was_stopped and self._stopped_by is not None and event.reason == self._stopped_by
         left = event.remaining if self._was_stopped else ""
         self.rest = "\n".join(filter(None, (self.rest if waited else "", left)))
-        self._stopped_by = event.reason if self._was_stopped else None
+        self._stopped_by = why = event.reason if self._was_stopped else None
+        self.was_replaced = bool(self.rest) and why is not None and why.code == "replaced"
 
     @property
     def is_about_this(self) -> bool:

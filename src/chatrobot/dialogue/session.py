@@ -28,7 +28,6 @@ from chatrobot.dialogue.programs.authoring import Authoring
 from chatrobot.dialogue.programs.draft import Draft
 from chatrobot.dialogue.programs.requests import ProgramRequests
 from chatrobot.dialogue.question import Proposals
-from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import EarlyAnswers, Kind, NextUtterance, Utterance, UtteranceQueue
@@ -74,7 +73,7 @@ class Session:
             model_setup, options.interpreter, link, understanding, self._emit, self._conclude_model_turn,
             lambda: self._utterances.pauses,
         )  # fmt: skip
-        driving = WhileDriving(self._goals, understanding, log, self._resuming)
+        self._driving = driving = WhileDriving(self._goals, understanding, log, self._resuming)
         early = EarlyAnswers(understanding, self._llm, log, authoring, driving)
         awaits, amending = self._proposals.awaits, Amending(self._goals, understanding, log, self._resuming)
         self._next = NextUtterance(waiting, log, self._llm, understanding, self._resuming, early, awaits)
@@ -306,7 +305,7 @@ class Session:
         reply = self.understanding.note_model_turn(text, ended, self.options.rehearse_only)
         is_refused = ended.outcome == "refused" and not self.options.rehearse_only
         finished, language = ended.finished if is_refused else None, self.understanding.language_of(text)
-        reply, proposal = with_offer(reply, finished, language)
+        reply, proposal = self._driving.with_offer(reply, finished, language)
         self._requests.conclude(turn, ended.outcome, reply, ended.finished, ended.reason, proposal)
 
     def _hear(self, event: Event) -> None:
@@ -346,5 +345,6 @@ class Session:
             reply = programs.ending(event.turn, reply)
         plan_text = format_plan(meant.plan) if meant.plan is not None else ""
         self._llm.note(text, plan_text, f"{event.outcome}: {measured(event)}")
-        reply, proposal = with_offer(reply, event if not rehearse_only else None, meant.language)
+        ended = None if rehearse_only else event
+        reply, proposal = self._driving.with_offer(reply, ended, meant.language)
         self._requests.conclude(event.turn, event.outcome, reply, event, proposal=proposal)

@@ -10,14 +10,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from chatrobot.core.event import Proposal
+from chatrobot.core.events import Finished
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.goal_client import GoalClient, RequestLog
+from chatrobot.dialogue.places import ends_alike
+from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.driven import rescaled, says
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
-from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.phrases import describe_text, render_reason, say
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling
@@ -133,12 +137,36 @@ class WhileDriving:
         return self._resuming.under_way.told(turn, steps, language, self._understanding.speed_mps)
 
     def beside(self, meant: Interpretation) -> Interpretation:
-        """`I did nothing`, said while the robot drives: what it does goes on. What waits for a yes does not."""
+        """`I did nothing`, said while the robot drives: what it does goes on. What waits for a yes does not.
+
+        What is asked about is left to be said in full, where a yes would have it done from another pose.
+        """
+        goes_on = self._goes_on(meant.language)
+        asked = meant.proposal
+        if not goes_on or (asked is not None and ends_alike(parse_plan(asked.plan_text))):
+            return meant
+        reply = meant.reply
+        if asked is not None:
+            instead = say(meant.language, "say_in_full", text=describe_text(asked.plan_text, meant.language))
+            reply = f"{reply.removesuffix(asked.say)}{instead}"
+        return replace(meant, reply=f"{reply} {goes_on}", proposal=None)
+
+    def with_offer(self, reply: str, ended: Finished | None, language: str) -> tuple[str, Proposal | None]:
+        """Return the reply to what has ended with what goes on beside it, or else what can be done instead of it."""
+        if ended is not None and ended.outcome == "refused":
+            goes_on = self._goes_on(language)
+            if goes_on:
+                return f"{reply} {goes_on}", None
+            if self._resuming.was_replaced:
+                reply = f"{reply} {say(language, 'rest_is_kept')}"
+        return with_offer(reply, ended, language)
+
+    def _goes_on(self, language: str) -> str:
+        """What is driven goes on; "" where nothing is."""
         running = self._requests.first_with_motion
         if running is None or self._resuming.under_way.step_of(running[0]) == 0:
-            return meant
-        told = say(meant.language, "drives_on", text=running[1].text)
-        return replace(meant, reply=f"{meant.reply} {told}")
+            return ""
+        return say(language, "drives_on", text=running[1].text)
 
     def goes_back(self, meant: Interpretation) -> bool:
         """Return whether it takes back all of what is driven, and takes its place: so far a part of that is done."""

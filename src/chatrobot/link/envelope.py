@@ -23,8 +23,10 @@ Word = Literal[
     # {…, "age_s"}: keeps it; any word that names its term opens it for a Motion that came after the hello. `age_s`: how
     # long ago whoever gave the order was heard, where that is somebody else
     "beat",
-    # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …, "instead_of": turn}:
-    # `instead_of` is a turn that still has to wait, and is not done; where it waits no more, the plan is refused
+    # {"plan_text", "mode", "more": bool, "approve": bool, "rehearse_only": bool, "longest_s": …, "instead_of": turn,
+    # "tries": bool}:
+    # `instead_of` is a turn that still has to wait, and is not done; where it waits no more, the plan is refused;
+    # `tries`: with the mode `replace`, what is driven goes on where this plan is refused
     "plan",
     "look",  # asks for a `looked` event of this turn
     "watch",  # {"scans": bool}: a display wants `scan` events, or no more
@@ -162,6 +164,7 @@ PAYLOADS: Mapping[str, Mapping[str, _Check]] = {
         "more": _is_flag,
         "longest_s": _seconds(with_zero=False),
         "instead_of": _is_count,
+        "tries": _is_flag,
     },
     "look": {},
     "watch": {"scans": _is_flag},

@@ -267,6 +267,11 @@ class Goal:
         self.planned = self.planned or planned
         return self.stream.accept(planned, self.account, self.longest_s)
 
+    def forget_rehearsal(self) -> None:
+        """Be rehearsed anew: it was only tried."""
+        self.planned = None
+        self.stream.rewind()
+
     @property
     def asks(self) -> bool:
         """Tell whether what was planned waits for a yes."""

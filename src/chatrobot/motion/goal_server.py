@@ -8,7 +8,6 @@ from functools import partial
 
 from chatrobot.core.clock import Clock
 from chatrobot.core.events import Event, Finished, Notice, Outcome
-from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.governor.lease import Priority, priority_of
 from chatrobot.link.envelope import Envelope
@@ -19,6 +18,7 @@ from chatrobot.motion.goal_queue import GoalQueue, Inbox, OutcomeQueue
 from chatrobot.motion.governed_robot import GovernedRobot
 from chatrobot.motion.pausing import PausedGoal, Pausing, is_foreign, why_not_kept
 from chatrobot.motion.plan_executor import PlanExecutor
+from chatrobot.motion.plan_rehearsal import PlanRehearsal, Trial
 from chatrobot.motion.planner import Planned, Planner, refused
 from chatrobot.motion.programs.goal import ProgramGoal
 from chatrobot.motion.programs.host import ProgramHost
@@ -45,8 +45,15 @@ class GoalServer:
     _outcomes: OutcomeQueue
     _emit: Callable[[Event], None]
     _preparing: Goal | None = field(default=None, init=False)
+    _rehearsal: PlanRehearsal = field(init=False)
+    _trial: Trial = field(init=False)
     why_unheard: Reason | None = field(default=None, init=False)
     """Why no odometry comes, as far as those know who look after the wire; any thread may set it."""
+
+    def __post_init__(self) -> None:
+        robot, executor, inbox = self._robot, self._executor, self._inbox
+        self._rehearsal = PlanRehearsal(robot, executor, self._planner, inbox, self._emit)
+        self._trial = Trial(robot, self._goal_queue, executor, self._rehearsal, inbox)
 
     @property
     def current(self) -> Goal | None:
@@ -56,7 +63,8 @@ class GoalServer:
     @property
     def are_done(self) -> bool:
         """True while nothing is prepared, driven, paused or queued."""
-        return self._pausing.goal is None and self.current is None and not self._goal_queue.goals
+        is_any_first = self._pausing.goal or self.current or self._trial.goal
+        return is_any_first is None and not self._goal_queue.goals
 
     @property
     def let_others_drive(self) -> bool:
@@ -69,8 +77,8 @@ class GoalServer:
 
     def _all(self) -> list[Goal]:
         """What moves the robot, or may: one that is prepared, driven or paused, and then the queue."""
-        first = (self.current, self._pausing.goal)
-        return [*(goal for goal in first if goal is not None), *self._goal_queue.goals]
+        goals = (self.current, self._pausing.goal, *self._goal_queue.goals, self._trial.goal)
+        return [goal for goal in goals if goal is not None]
 
     # --- accepted ---
 
@@ -82,6 +90,12 @@ class GoalServer:
         account = self._budgets.account_of(envelope.source, envelope.lease, envelope.turn)
         kind = ProgramGoal if envelope.word == "program" else Goal
         goal = kind.of(envelope, epoch, self._clock.now_s(), account)
+        self._end_trial()  # what comes later stays behind it
+        tries = mode == "replace" and envelope.payload.get("tries") is True
+        if not (tries and self._trial.begin(goal, self._clock.now_s(), self._end_trial)):
+            self._take_in(goal, mode, envelope.payload.get("instead_of"))
+
+    def _take_in(self, goal: Goal, mode: object, place_of_turn: int | None = None) -> None:
         if self._goal_queue.is_void(goal, self._stops.count):
             self._outcomes.tell_unmoved(goal, "stopped", self._stops.last_reason)
             return
@@ -89,8 +103,8 @@ class GoalServer:
         declined = self._give_way(goal)
         if declined is None and mode == "replace":
             self._replace(Reason("replaced"))
-        if declined is None and (instead_of := envelope.payload.get("instead_of")) is not None:
-            changed = self._goal_queue.put_instead(goal, instead_of)
+        if declined is None and place_of_turn is not None:
+            changed = self._goal_queue.put_instead(goal, place_of_turn)
             self._outcomes.tell_all_unmoved(changed, "stopped", Reason("order_changed"))
             declined = None if changed else Reason("begun_meanwhile")
         elif declined is None:
@@ -98,10 +112,24 @@ class GoalServer:
         if declined is not None:
             self._outcomes.tell_unmoved(goal, "refused", declined)
 
+    def _end_trial(self, planned: Planned | None = None) -> None:
+        """Refuse what was tried, and let go on what is driven; else it takes its place."""
+        goal = self._trial.take()
+        if goal is None:
+            return
+        may_refuse = self._executor.goes_on and not self._goal_queue.is_void(goal, self._stops.count)
+        if planned is not None and may_refuse and goal.take(planned) is not None:
+            self._show(planned, goal)
+            self._outcomes.tell_unmoved(goal, "refused", goal.refusal)
+            return
+        goal.forget_rehearsal()
+        self._take_in(goal, "replace")
+
     def cancel(self, envelope: Envelope) -> None:
         """End one turn of a source: at once where it waits, with a controlled stop where it has begun."""
         current, why = self.current, Reason("canceled")
         about = envelope.lease, envelope.turn
+        self._trial.give_up(about)
         self._outcomes.tell_all_unmoved(self._goal_queue.take_turn(*about), "stopped", why)
         if current is not None and (current.lease, current.turn) == about:
             self._end_current_gently(why)
@@ -151,6 +179,8 @@ class GoalServer:
 
     def begin_next(self, now_s: float) -> None:
         """Prepare the next in the queue, if nothing is prepared or driven."""
+        if self._trial.is_too_long(now_s):
+            self._end_trial()
         goals = self._goal_queue.goals
         if self.current is not None or not goals:
             return
@@ -159,7 +189,9 @@ class GoalServer:
             return
         self._preparing = goal = goals.popleft()
         goal.start = self._robot.pose
-        rehearse: Callable[[], Planned] = self._planning(goal, goal.plan_text, goal.start, goal.plan_start)
+        rehearse: Callable[[], Planned] = self._rehearsal.planning(
+            goal, goal.plan_text, goal.start, goal.plan_start
+        )
         if isinstance(goal, ProgramGoal):
             rehearse = partial(self._programs.rehearse, goal, self._planner, self._robot.seen())
         self._inbox.fetch(rehearse, lambda planned: self._take_rehearsed(goal, planned))
@@ -180,24 +212,26 @@ class GoalServer:
         if self._preparing is not goal:
             return  # stopped or replaced meanwhile; its end has been told
         refusal = goal.take(planned)
-        asks = goal.asks
         notice = goal.account.notice(planned.is_endless)
         if refusal is None and notice is not None:
             self._emit(Notice(goal.turn, notice))
-        for event in planned.events(asks):
-            self._emit(refused(event, refusal))
+        self._show(planned, goal)
         if refusal is not None:
             self._drop_prepared("refused", refusal)
         elif goal.rehearse_only:
             self._drop_prepared("completed", None)
-        elif asks:
+        elif goal.asks:
             goal.approval = Approval(self._clock.now_s(), goal.start)
         else:
             self._launch(goal)
 
+    def _show(self, planned: Planned, goal: Goal) -> None:
+        for event in planned.events(goal.asks):
+            self._emit(refused(event, goal.refusal))
+
     def _launch(self, goal: Goal) -> None:
         self._preparing = None
-        self._executor.launch(goal, lambda: self._rehearse_part(goal))
+        self._executor.launch(goal, lambda: self._rehearsal.next_part(goal))
 
     # --- rehearsed in parts, while it is driven ---
 
@@ -207,46 +241,8 @@ class GoalServer:
             if (goal.turn, goal.lease) == (envelope.turn, envelope.lease):
                 payload = envelope.payload
                 goal.stream.add(str(payload.get("plan_text", "")), bool(payload.get("more")))
-                self._rehearse_part(goal)
+                self._rehearsal.next_part(goal)
                 return
-
-    def _rehearse_part(self, goal: Goal) -> None:
-        """Rehearse the next part, if the one before it has been."""
-        walk = goal.stream.walk
-        if not self._executor.drives(goal) or walk is None:
-            return
-        plan_text = goal.stream.take()
-        if plan_text is not None:
-            rehearse = self._planning(goal, plan_text, walk.end, goal.plan_start or goal.start)
-            self._fetch_part(goal, rehearse)
-
-    def _fetch_part(self, goal: Goal, rehearse: Callable[[], Planned]) -> None:
-        world = self._planner.world
-
-        def take(planned: Planned) -> None:
-            if self._planner.world is world:
-                self._take_part(goal, planned)
-            elif self._executor.drives(goal):  # it was rehearsed in another world
-                self._fetch_part(goal, rehearse)
-
-        self._inbox.fetch(rehearse, take)
-
-    def _planning(
-        self, goal: Goal, plan_text: str, start: Pose, plan_start: Pose | None
-    ) -> Callable[[], Planned]:
-        """Rehearses that text of the goal among what is seen now, for the background."""
-        seen, left = self._robot.seen(), goal.left
-        return lambda: self._planner.plan(goal.turn, plan_text, start, plan_start, seen, left)
-
-    def _take_part(self, goal: Goal, planned: Planned) -> None:
-        if not self._executor.drives(goal):
-            return
-        part = planned.part_event(len(goal.stream.accepted))
-        refusal = goal.take(planned)
-        self._emit(refused(part, refusal))
-        if refusal is None:
-            self._executor.expect(goal.stream.duration_s)
-        self._rehearse_part(goal)
 
     def void_prepared(self, why: Reason) -> None:
         """Refuse what waits for a yes: it was about another world. What is being rehearsed is rehearsed anew."""
@@ -261,7 +257,9 @@ class GoalServer:
 
     def pause(self, why: Reason, now_s: float) -> None:
         """Keep what was under way when a pause stopped the robot; end what cannot be kept."""
-        goal = self.current
+        goal, tried = self.current, self._trial.take()
+        if tried is not None:
+            self._outcomes.tell_unmoved(tried, "stopped", why)
         if goal is None and self._pausing.goal is not None:
             self._pausing.hold(why)
             return  # it waits already
@@ -313,6 +311,7 @@ class GoalServer:
 
     def end_stopped(self, why: Reason) -> None:
         """End what was driven, prepared, paused, or queued before a stop."""
+        self._trial.give_up()
         self._executor.end_stopped(why)
         self._pausing.end(why)
         self._drop_prepared("stopped", why)
@@ -342,6 +341,7 @@ class GoalServer:
         self._end_queued(outcome, why)
 
     def _end_queued(self, outcome: Outcome, why: Reason) -> None:
+        self._trial.give_up()
         self._outcomes.tell_all_unmoved(self._goal_queue.take_all(), outcome, why)
 
     def _drop_prepared(self, outcome: Outcome, reason: Reason | None) -> None:

@@ -49,6 +49,7 @@ class PlanExecutor:
     _run: GoalExecution | ProgramExecution | None = field(default=None, init=False)
     _begun: Callable[[], None] = field(default=lambda: None, init=False)
     _awaits_guard: bool = field(default=False, init=False)
+    _is_braking: bool = field(default=False, init=False)
     goal: Goal | None = field(default=None, init=False)
     """What is being launched or driven."""
 
@@ -56,6 +57,11 @@ class PlanExecutor:
     def is_driving(self) -> bool:
         """True while a goal is under way."""
         return self._run is not None
+
+    @property
+    def goes_on(self) -> bool:
+        """True while a goal is under way that nothing has put an end to."""
+        return self._run is not None and not self._is_braking
 
     def drives(self, goal: Goal) -> bool:
         """Return whether that goal is under way."""
@@ -99,7 +105,7 @@ class PlanExecutor:
         self._inbox.fetch(lambda: self._programs.launch(goal), take)
 
     def _set_out(self, run: GoalExecution | ProgramExecution, now_s: float) -> None:
-        self._run = run
+        self._run, self._is_braking = run, False
         self._emit(Started(run.goal.turn, run.goal.start, self._robot.sensors.has_odometry))
         self.tick(now_s)
         self._begun()
@@ -153,6 +159,7 @@ class PlanExecutor:
     def ramp_down(self, why: Reason) -> None:
         """Stop at the deceleration of the profile; end at once what is only being launched."""
         if self._run is not None:
+            self._is_braking = True
             self._run.ramp_down(why)
         elif self.goal is not None:
             self._give_up("stopped", why)
