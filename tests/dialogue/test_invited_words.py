@@ -61,7 +61,7 @@ def test_what_german_replies_invite_to_say_is_done() -> None:
         "answered", "unclear", "completed", "completed", "completed", "completed", "refused", "completed",
     ]  # fmt: skip
     assert "Sag „los“ oder „ja“" in told[1].reply
-    assert told[4].reply.startswith("Fertig: 0.20 m")
-    assert "Soll ich 2." in told[6].reply
+    assert told[4].reply.startswith("Fertig: 0,20 m")
+    assert "Soll ich 2," in told[6].reply
     assert wants_to_resume("weiter")
     assert language_of("ok", "de") == "de", "what is said alike in both leaves the language as it was"

@@ -93,8 +93,8 @@ def test_a_plan_is_told_in_german() -> None:
     repeated = "repeat 3\n  arc right 180 deg radius 0.5 m\nend"
     plan = f'drive 2 m at 0.3 m/s\nturn left 90 deg\ngo to 1 2 named "kitchen"\n{repeated}'
     told = (
-        "2 m vorwärts fahren (mit 0.3 m/s), 90° nach links drehen, zu „Küche“ fahren, "
-        "3 × eine Kurve von 180° nach rechts fahren (Radius 0.5 m)"
+        "2 m vorwärts fahren (mit 0,3 m/s), 90° nach links drehen, zu „Küche“ fahren, "
+        "3 × eine Kurve von 180° nach rechts fahren (Radius 0,5 m)"
     )
     assert describe_text(plan, "de") == told
     assert say("de", "offer", text=describe_text("drive 1 m left", "de")) == "Soll ich 1 m nach links fahren?"

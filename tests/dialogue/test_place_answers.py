@@ -120,7 +120,7 @@ def test_a_robot_that_has_not_said_where_it_is_tells_no_distance() -> None:
             "The nearest things: ahead of me 2.40 m, to my left 0.80 m, to my right 1.50 m.",
         ),
         ("你左边有什么？", "我左边最近的东西有 0.80 米远。"),
-        ("Was ist vor dir?", "Das Nächste vor mir ist 2.40 m entfernt."),
+        ("Was ist vor dir?", "Das Nächste vor mir ist 2,40 m entfernt."),
     ],
 )
 def test_what_is_on_a_side_is_what_the_lidar_sees_there(text: str, reply: str) -> None:
@@ -138,7 +138,7 @@ def test_without_a_lidar_it_says_that_it_cannot_see() -> None:
     ["how far from start are you?", "how far from start", "离起点多远", "Wie weit bist du vom Start weg?"],
 )
 def test_the_way_to_a_near_place_is_told_in_centimetres(text: str) -> None:
-    assert "0.20" in asked(text, pose=Pose(0.2, 0.0)).reply
+    assert "0.20" in asked(text, pose=Pose(0.2, 0.0)).reply.replace(",", ".")
 
 
 @pytest.mark.parametrize(

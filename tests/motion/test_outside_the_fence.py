@@ -112,12 +112,12 @@ def test_what_leaves_on_the_other_side_is_refused_at_that_edge() -> None:
 
 WORDS = {
     "en": ("I stand 6.25 m outside the allowed area", "Shall I drive forward 5.35 m?"),
-    "de": ("Ich stehe 6.25 m außerhalb des erlaubten Bereichs", "Soll ich 5.35 m vorwärts fahren?"),
+    "de": ("Ich stehe 6,25 m außerhalb des erlaubten Bereichs", "Soll ich 5,35 m vorwärts fahren?"),
     "zh": ("我在允许的区域之外 6.25 米", "要我向前走 5.35 米吗？"),
 }
 STOPPED = {
     "en": "I stand 1.14 m outside the allowed area",
-    "de": "ich stehe 1.14 m außerhalb des erlaubten Bereichs",
+    "de": "ich stehe 1,14 m außerhalb des erlaubten Bereichs",
     "zh": "我在允许范围之外 1.14 米",
 }
 SAID = {"en": "forward 12 m", "de": "fahre 12 m vorwärts", "zh": "往前走 12 米"}

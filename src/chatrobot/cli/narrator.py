@@ -10,6 +10,7 @@ from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.dialogue.programs.draft import body, headline
 from chatrobot.dialogue.replies import describe_left, describe_twist
+from chatrobot.language.data_files import written
 from chatrobot.language.phrases import describe_text, render_reason, say
 from chatrobot.plan.shown import folded_plan
 
@@ -119,7 +120,8 @@ class Narrator:
         return Line(text, "dim", "  ≈ " if self._plain else "  ")
 
     def _facts(self, rehearsed: events.Rehearsed) -> str:
-        length, duration = f"{rehearsed.length_m:.2f}", f"{rehearsed.duration_s:.1f}"
+        figures = (f"{rehearsed.length_m:.2f}", f"{rehearsed.duration_s:.1f}")
+        length, duration = (written(one, self._words.language) for one in figures)
         if self._plain:
             return f"{duration} s, {length} m"
         return self._words.say("plan_facts", length=length, duration=duration)

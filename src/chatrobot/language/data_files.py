@@ -22,6 +22,7 @@ REPLY_LANGUAGES = (*LANGUAGES, "de")
 """The languages that people are answered in."""
 
 _BRACES = re.compile(r"\{([^{}]*)\}")
+_DECIMAL = re.compile(r"-?\d+\.\d+")
 _PART = re.compile(r"(?<!\?P)<(\w+)>")
 
 
@@ -35,6 +36,18 @@ def load_table(language: str, name: str) -> dict[str, Any]:
     if not path.exists():
         return {} if language in LANGUAGES else load_table(LANGUAGES[0], name)
     return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def written(text: str, language: str) -> str:
+    """Return a number that is text already as the language writes it, and any other text as it is."""
+    is_number = _DECIMAL.fullmatch(text) is not None
+    return text.replace(".", str(load_table(language, "phrases")["decimal_mark"])) if is_number else text
+
+
+def filled(template: str, language: str, values: Mapping[str, object]) -> str:
+    """Return words of a table with their values filled in."""
+    shown = {key: written(one, language) if isinstance(one, str) else one for key, one in values.items()}
+    return template.format(**shown)
 
 
 @cache

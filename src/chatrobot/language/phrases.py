@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 
 from chatrobot.core.reason import ANGLE_PLACES, LENGTH_PLACES, Reason, Value, number
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import load_table, written
 from chatrobot.language.normalise import has_chinese
 from chatrobot.language.typed import codes, typed
 from chatrobot.plan.shown import repeated, runs, shown_plan
@@ -36,9 +36,11 @@ class _Tidy(float):
     """A number that is shown without float noise where the phrase does not say how."""
 
     places = LENGTH_PLACES
+    language = "en"
 
     def __format__(self, spec: str) -> str:
-        return super().__format__(spec) if spec not in ("", "g") else number(self, self.places)
+        text = super().__format__(spec) if spec not in ("", "g") else number(float(self), self.places)
+        return written(text, self.language)
 
 
 class _TidyAngle(_Tidy):
@@ -57,10 +59,14 @@ class _Formatted(dict[str, Value]):
     def __getitem__(self, key: str) -> Value:
         value = super().__getitem__(key)
         if isinstance(value, str):
-            return by_language((value,), self._language)[0] if key in _NAMES else value
+            return (
+                by_language((value,), self._language)[0] if key in _NAMES else written(value, self._language)
+            )
         if not isinstance(value, float):
             return value
-        return _TidyAngle(value) if key.endswith("_deg") else _Tidy(value)
+        tidy = _TidyAngle(value) if key.endswith("_deg") else _Tidy(value)
+        tidy.language = self._language
+        return tidy
 
     def __missing__(self, key: str) -> str:
         return f"{{{key}}}"

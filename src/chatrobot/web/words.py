@@ -10,7 +10,7 @@ from chatrobot.core import events
 from chatrobot.core.events import Event
 from chatrobot.core.reason import fixed
 from chatrobot.dialogue.replies import describe_end, describe_left, describe_twist
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import filled, load_table
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.language.phrases import render_reason, say
 from chatrobot.reflex import is_release, leads_with_stop
@@ -28,7 +28,8 @@ UNTOLD = frozenset({"finished"})
 def web_words(language: LanguageCode, code: str, **values: object) -> str:
     """Return the web console's words of that code, or those that it has in common with the console at a terminal."""
     own = load_table(language, "web")
-    return str(own[code] if code in own else load_table(language, "console")[code]).format(**values)
+    words = own[code] if code in own else load_table(language, "console")[code]
+    return filled(str(words), language, values)
 
 
 def told(kind: str, **values: Any) -> Message:

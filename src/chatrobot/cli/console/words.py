@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from chatrobot.core.geometry import Pose, wrap_angle
 from chatrobot.core.reason import fixed
-from chatrobot.language.data_files import load_table
+from chatrobot.language.data_files import filled, load_table
 from chatrobot.language.interpretation import LanguageCode, language_of_tags
 
 _TABLE = "console"
@@ -31,7 +31,7 @@ class Words:
 
     def say(self, code: str, **values: object) -> str:
         """Return the words of that code."""
-        return str(load_table(self.language, _TABLE)[code]).format(**values)
+        return filled(str(load_table(self.language, _TABLE)[code]), self.language, values)
 
     def pose(self, pose: Pose) -> str:
         """Write a pose as `(1.00, -0.50) 90°`: metres and heading in the odom frame."""
