@@ -14,6 +14,7 @@ from typing import Any
 from chatrobot.compose import Connection
 from chatrobot.core.errors import LinkError
 from chatrobot.core.events import RELEASED, Event, Finished, Notice, Remembered, Result
+from chatrobot.core.reason import Reason
 from chatrobot.language.interpretation import LanguageCode
 from chatrobot.link.motion_link import TURNS
 from chatrobot.plan.steps import Go, Plan
@@ -101,9 +102,12 @@ class Room:
         is_ours = notice.reason.values.get("source") == "console"
         return notice.reason.code in RELEASED and (self._release_is_due or not is_ours)
 
-    def note_alarm(self, is_set: bool) -> None:
-        """Take note that another face of the session has set the emergency stop, or had it released."""
+    def note_alarm(self, is_set: bool, why: str = "") -> None:
+        """Take note that a face of the session has set the emergency stop, once, or had it released."""
         with self._lock:
+            if is_set and not self.is_latched:  # Motion's notice tells the release, and nothing this
+                about = {"source": "pupil" if self.name else "console", "why": why}  # a class has names
+                self._tell(event_message(Notice(0, Reason("emergency_stop", about))), is_kept=True)
             self._set_alarm(is_set)
 
     def lose(self, error: Exception) -> None:
@@ -160,10 +164,8 @@ class Room:
         )
 
     def _tell_lost(self) -> None:
-        with self._lock:
-            if (
-                not self._history or self._history[-1] is not _LOST
-            ):  # pages that tried in vain come all at once
+        with self._lock:  # pages that tried in vain come all at once
+            if not self._history or self._history[-1] is not _LOST:
                 self._tell(_LOST, is_kept=True)
 
     # --- who is here ---
@@ -258,8 +260,7 @@ class Room:
     def emergency_stop(self, why: str = EMERGENCY_BUTTON) -> None:
         """Stop the robot now, and keep it stopped until it is released."""
         self.session.emergency_stop(why)
-        with self._lock:
-            self._set_alarm(True)
+        self.note_alarm(True, why)
 
     def release(self) -> None:
         """Ask Motion to release the emergency stop; its notice says what became of it."""
