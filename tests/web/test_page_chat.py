@@ -74,6 +74,7 @@ def test_a_plan_that_cannot_be_read_can_be_mended(page: Page, rig: WebRig) -> No
     page.get_by_role("button", name="Rehearse and run").click()
     rig.session.wait_for("say_plan", "turn left 90 deg\nfly 3 m")
     rig.tell(Result(1, "unclear", "This plan cannot be read."))
+    expect(page.locator("#plan-about")).to_have_text("This plan was not understood, and nothing was done.")
     page.locator("#plan-edit").click()
     expect(page.get_by_label("The plan, one step a line")).to_have_value("turn left 90 deg\nfly 3 m")
 
@@ -124,7 +125,7 @@ def test_what_an_agent_asks_for_is_seen_before_the_yes_and_its_end_after(page: P
     )
     expect(chat).to_contain_text("No yes came within 30 s")
     expect(chat.get_by_role("button")).to_have_count(0)
-    expect(page.locator("#plan-about")).to_have_text("The last plan.")
+    expect(page.locator("#plan-about")).to_have_text("The last plan. It was not done.")
 
 
 def test_a_question_is_answered_by_yes_or_no(page: Page, rig: WebRig) -> None:
@@ -204,6 +205,59 @@ def test_ones_own_texts_stay_ones_own_when_the_page_is_loaded_again(
     other.context.close()
 
 
+def test_what_one_says_is_seen_after_scrolling_up_and_what_others_say_is_told_by_a_button(
+    page: Page, rig: WebRig
+) -> None:
+    for number in range(1, 9):
+        say(page, rig, f"drive {number} m")
+        rig.tell(Result(number, "refused", f"No, not {number} m."))
+    scroll_up = "document.getElementById('talk').scrollTop = 0"
+    newest = page.get_by_role("button", name="New messages")
+    page.evaluate(scroll_up)
+    page.wait_for_timeout(100)
+    say(page, rig, "turn left")
+    rehearse(rig, 9)
+    expect(page.locator("#turns").get_by_role("button", name="Do it")).to_be_in_viewport(ratio=1)
+    expect(newest).to_be_hidden()
+    page.evaluate(scroll_up)
+    page.wait_for_timeout(100)
+    rig.room.note_said(10, "turn right", "page-0", "Somebody")
+    rig.tell(Result(10, "refused", "No, not right."))
+    expect(page.get_by_text("No, not right.")).not_to_be_in_viewport()
+    newest.click()
+    expect(page.get_by_text("No, not right.")).to_be_in_viewport()
+    expect(newest).to_be_hidden()
+
+
+def test_a_proposal_that_something_newer_replaces_warns_of_nothing(page: Page, rig: WebRig) -> None:
+    why = Reason("replaced")
+    for turn in (1, 2):
+        say(page, rig, f"drive {turn} m")
+        rehearse(rig, turn)
+    rig.tell(Result(1, "stopped", "Stopped (new instruction). So far: nothing moved.", reason=why))
+    first = page.locator("#turns > li", has_text="drive 1 m").locator(".robot")
+    expect(first).to_have_text("Not done: something newer took its place.", use_inner_text=True)
+    expect(first).to_have_attribute("data-outcome", "understood")
+    rig.tell(Started(2))
+    rig.tell(Result(2, "stopped", "Stopped (new instruction). So far: drove 0.20 m.", reason=why))
+    expect(page.locator("#turns .robot").last).to_have_attribute("data-outcome", "stopped")
+
+
+def test_an_emergency_stop_stands_once_in_the_chat_of_every_tab(
+    page: Page, rig: WebRig, browser: Browser
+) -> None:
+    other = open_page(browser, rig.origin)
+    for _ in range(2):
+        page.get_by_role("button", name="Emergency stop", exact=True).click()
+    rig.tell(Notice(0, Reason("released", {"source": "joystick"})))
+    for one in (page, other):
+        told = one.locator("#turns .line", has_text="emergency stop")
+        expect(told).to_have_count(2)
+        expect(told.first).to_contain_text("The emergency stop is set (by console).")
+        expect(told.first).to_contain_text("“Release emergency stop” at the top of the page")
+    other.context.close()
+
+
 # --- plan, gauges, programs ---
 
 
@@ -226,6 +280,38 @@ def test_a_paused_plan_is_told_as_that_and_a_pause_of_nothing_too(page: Page, ri
     expect(page.locator("#plan-about")).to_have_text("Paused.")
     rig.tell(Started(1))
     expect(page.locator("#plan-about")).to_have_text("Runs now.")
+
+
+def test_a_plan_that_was_stopped_shows_how_far_it_came(page: Page, rig: WebRig) -> None:
+    say(page, rig, "drive half a metre")
+    rehearse(rig)
+    rig.tell(Started(1))
+    rig.tell(Progress(1, 2, 3, 0.4, ORIGIN, Twist(0.1, 0.0, 0.0)))
+    rig.tell(Result(1, "stopped", "Stopped."))
+    expect(page.locator("#plan-about")).to_have_text("The last plan. It was stopped.")
+    expect(page.locator("#plan-lines .done")).to_have_text(["drive 0.5 m"])
+    expect(page.locator("#plan-lines .left")).to_have_count(3)
+    expect(page.locator("#plan-lines [aria-current]")).to_have_count(0)
+
+
+def test_how_fast_it_is_stays_in_sight_below_a_long_program(page: Page, rig: WebRig) -> None:
+    say(page, rig, "write a program")
+    write_program(rig, "print(1)\n" * 40)
+    expect(page.locator("#program-source li")).to_have_count(40)
+    page.evaluate("document.querySelector('.side').scrollTop = 9999")
+    expect(page.locator("#program-run")).to_be_in_viewport()
+    expect(page.locator("#gauge-speed")).to_be_in_viewport(ratio=1)
+
+
+def test_a_german_page_writes_decimals_with_a_comma(rig: WebRig, browser: Browser) -> None:
+    page = open_page(browser, rig.origin, locale="de-DE")
+    rehearse(rig)
+    rig.tell(Limited(1, "obstacle", Twist(0.5, 0.0, 0.0), Twist(0.2, 0.0, 0.0)))
+    with rig.telling(Telemetry(0, ORIGIN, Twist(0.25, 0.0, 0.0), 1.0)):
+        expect(page.locator("#gauge-speed b")).to_have_text("0,25 von 1,00 m/s")
+    expect(page.locator("#turns")).to_contain_text("0,95 m")
+    expect(page.locator("#limited")).to_contain_text("0,50 m/s")
+    page.context.close()
 
 
 def test_a_plan_is_shown_rounded_and_edited_as_it_is(page: Page, rig: WebRig) -> None:

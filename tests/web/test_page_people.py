@@ -139,6 +139,40 @@ def test_small_screens_hold_everything_and_always_the_stop(
     page.context.close()
 
 
+_CUT_OFF = """() => {
+  const context = document.createElement("canvas").getContext("2d");
+  const widthOf = (element, text) => {
+    context.font = getComputedStyle(element).font;
+    return context.measureText(text).width;
+  };
+  const room = (element) => {
+    const style = getComputedStyle(element);
+    return element.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight);
+  };
+  const say = document.getElementById("say");
+  const emergency = document.getElementById("emergency");
+  const title = document.getElementById("robot-title");
+  const found = [];
+  if (widthOf(say, say.placeholder) > room(say)) found.push("placeholder");
+  const words = emergency.textContent.split(/[ -]/).map((word) => widthOf(emergency, word));
+  if (Math.max(...words) > room(emergency) + 1) found.push("emergency");
+  if (title.clientWidth < widthOf(title, "Wheeltec")) found.push("title");
+  if (document.querySelector("#stop small").checkVisibility()) found.push("keys");
+  return found;
+}"""
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "de-DE", "zh-CN"])
+@pytest.mark.parametrize("size", [(390, 760), (320, 568), (740, 360)])
+def test_a_phone_cuts_off_no_words_and_shows_the_box_to_speak_in(
+    rig: WebRig, browser: Browser, size: tuple[int, int], locale: str
+) -> None:
+    page = open_page(browser, rig.origin, size, locale=locale)
+    expect(page.locator("#say")).to_be_in_viewport(ratio=1)
+    assert page.evaluate(_CUT_OFF) == []
+    page.context.close()
+
+
 def test_the_keyboard_alone_gets_everywhere_and_every_focus_is_seen(page: Page, rig: WebRig) -> None:
     say(page, rig, "drive half a metre")
     rehearse(rig)

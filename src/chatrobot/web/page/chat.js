@@ -5,7 +5,7 @@ import { BEGUN_ANEW, on, send, state } from "./connection.js";
 import { byId, make, makeButton, setText, takeFromTab } from "./dom.js";
 import { showHistory } from "./say_box.js";
 import { speak } from "./speech.js";
-import { language, t } from "./words.js";
+import { decimal, language, t } from "./words.js";
 
 const MOST_ENTRIES = 300;
 const NEAR_END_PX = 80;
@@ -13,6 +13,7 @@ const MARKS = { completed: "✓", answered: "", stopped: "■", refused: "!", un
 
 const log = byId("talk");
 const list = byId("turns");
+const newest = byId("newest");
 const entries = new Map();
 let asking = null;
 let isAtEnd = true;
@@ -77,10 +78,16 @@ function forgetAll() {
   markAsking();
 }
 
-/** Do `act` and keep the newest in sight, unless a person has scrolled up to read. */
-function change(act) {
+/** Do `act` and keep the newest in sight; where a person has scrolled up to read, a button leads to what is new. */
+function change(act, isNew = true) {
   act();
-  if (isAtEnd || state.isReplaying) log.scrollTop = log.scrollHeight;
+  if (isAtEnd || state.isReplaying) showEnd();
+  else if (isNew) newest.hidden = false;
+}
+
+function showEnd() {
+  isAtEnd = newest.hidden = true;
+  log.scrollTop = log.scrollHeight;
 }
 
 function say(entry, text, outcome = "") {
@@ -143,7 +150,7 @@ const heard = {
     const severity = (at) => (event.findings[at] || {}).severity || "note";
     entry.found.append(...texts.map((one, at) => make("li", `rehearsal ${severity(at)}`, one)));
     if (event.ok && event.duration_s > 0) {
-      const figures = { length: event.length_m.toFixed(2), duration: event.duration_s.toFixed(0) };
+      const figures = { length: decimal(event.length_m, 2), duration: decimal(event.duration_s, 0) };
       entry.found.prepend(make("li", "rehearsal note", t(event.open_ended ? "rehearsed_open" : "rehearsed", figures)));
     }
     entry.robot.hidden = false;
@@ -151,6 +158,7 @@ const heard = {
   },
   started(entry) {
     unask(entry);
+    entry.isStarted = true;
     entry.robot.hidden = entry.bar.hidden = false;
   },
   progress(entry, event) {
@@ -175,6 +183,11 @@ const heard = {
   result(entry, event, text) {
     unask(entry);
     entry.bar.hidden = true;
+    if (event.reason?.code === "replaced" && !entry.isStarted) {
+      forgetRehearsal(entry);
+      say(entry, t("replaced"), "understood"); // nothing was stopped, so there is nothing to warn of
+      return;
+    }
     if (text) goOnBelow(entry);
     if (text) say(entry, text, event.outcome);
     forgetRehearsal(entry);
@@ -207,16 +220,26 @@ function noteLine(text, kind = "line") {
   change(() => list.append(make("li", kind, text)));
 }
 
+function showSaid(message, isMine) {
+  const entry = entryOf(message.turn);
+  if (asking) unask(asking);
+  entry.you.hidden = false;
+  const who = isMine || !message.name ? [] : [make("span", "who", message.name)];
+  entry.you.replaceChildren(...who, message.text);
+  showHistory(message);
+}
+
 /** A lesson that comes up above, the keyboard of a phone, or a phone that is turned, does not hide the newest. */
 function keepEndInSight() {
   let height = 0;
   log.addEventListener("scroll", () => {
     if (log.clientHeight !== height) return; // nobody has scrolled: there is less room now
     isAtEnd = log.scrollHeight - log.scrollTop - log.clientHeight < NEAR_END_PX;
+    if (isAtEnd) newest.hidden = true;
   });
   new ResizeObserver(() => {
     height = log.clientHeight;
-    if (isAtEnd) log.scrollTop = log.scrollHeight;
+    if (isAtEnd) showEnd();
   }).observe(log);
 }
 
@@ -231,21 +254,17 @@ export function startChat() {
   on("closed", () => {
     for (const entry of entries.values()) entry.bar.hidden = true; // what becomes of it is not known here
   });
-  on("said", (message) => change(() => {
-    const entry = entryOf(message.turn);
-    if (asking) unask(asking);
-    entry.you.hidden = false;
+  on("said", (message) => {
     const isMine = state.mine.has(String(message.by));
-    const who = isMine || !message.name ? [] : [make("span", "who", message.name)];
-    entry.you.replaceChildren(...who, message.text);
-    showHistory(message);
-  }));
+    if (isMine) isAtEnd = true; // what one has just said, and the answer, are what one wants to see
+    change(() => showSaid(message, isMine));
+  });
   on("event", (message) => {
     const event = message.event;
     const hear = heard[event.event];
     if (!hear) return;
     if (event.event === "notice" && !event.turn) noteLine([].concat(message.text || event.text).join(" "));
-    else change(() => hear(entryOf(event.turn), event, message.text));
+    else change(() => hear(entryOf(event.turn), event, message.text), event.event !== "progress");
   });
   on("lost", (message) => noteLine(message.text));
   on("note", (message) => noteLine(message.text));
@@ -254,5 +273,9 @@ export function startChat() {
     if (!state.isReplaying) speak(message.text, language());
   });
   keepEndInSight();
+  newest.addEventListener("click", () => {
+    showEnd();
+    log.focus();
+  });
   on("task", (message) => noteLine(`${message.title}: ${message.text}`, "task"));
 }

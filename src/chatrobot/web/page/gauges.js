@@ -2,7 +2,7 @@
 
 import { on, state } from "./connection.js";
 import { byId, setText } from "./dom.js";
-import { onLanguage, t } from "./words.js";
+import { decimal, onLanguage, t } from "./words.js";
 
 const UNKNOWN = "–";
 const NEAR_M = 3;
@@ -35,12 +35,12 @@ function draw() {
   const speed = Math.hypot(twist.vx_mps, twist.vy_mps);
   const rate = (Math.abs(twist.wz_radps) * 180) / Math.PI;
   const mostRate = (limits.max_rate_radps * 180) / Math.PI;
-  const of = (value, most, digits) => ({ value: value.toFixed(digits), most: most.toFixed(digits) });
+  const of = (value, most, digits) => ({ value: decimal(value, digits), most: decimal(most, digits) });
   const measured = (text) => (telemetry ? text : UNKNOWN);
   show("gauge-speed", speed, limits.max_speed_mps, measured(t("mps", of(speed, limits.max_speed_mps, 2))));
   show("gauge-rate", rate, mostRate, measured(t("degps", of(rate, mostRate, 0))));
   const near = telemetry ? telemetry.nearest_obstacle_m : null;
-  const nearest = near === null ? t("nothing_near") : t("metres", { value: near.toFixed(2) });
+  const nearest = near === null ? t("nothing_near") : t("metres", { value: decimal(near, 2) });
   show("gauge-near", near, NEAR_M, measured(nearest));
   byId("gauge-near").hidden = !state.hello.robot.has_lidar;
   byId("gauge-near").classList.toggle("warn", near !== null && near < 0.3);

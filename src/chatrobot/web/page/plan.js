@@ -12,6 +12,8 @@ const about = byId("plan-about");
 const plan = {
   turn: 0, lines: [], step: 0, outcome: "", waits: false, streams: false, isEdited: false, edits: 0, isProgram: false, isSent: false, isPaused: false,
 };
+/** How the last plan ended, where it was not done. */
+const ENDS = { stopped: "plan_stopped", refused: "plan_refused", failed: "plan_failed", unclear: "plan_unclear" };
 
 const NUMBER_OR_QUOTED = /"(?:[^"\\]|\\.)*"|-?\d+\.\d{4,}(?:e[-+]?\d+)?/g;
 
@@ -39,8 +41,9 @@ function draw() {
   const steps = stepsOfLines(plan.lines);
   lines.replaceChildren(...plan.lines.map((line, at) => {
     const item = make("li", "", shown(line));
-    const isRunning = plan.step > 0 && steps[at] === plan.step;
+    const isRunning = plan.step > 0 && steps[at] === plan.step && !plan.outcome;
     item.classList.toggle("running", isRunning);
+    item.classList.toggle("left", plan.outcome in ENDS && steps[at] === plan.step);
     item.classList.toggle("done", plan.step > steps[at] || plan.outcome === "completed");
     if (isRunning) item.setAttribute("aria-current", "step");
     return item;
@@ -51,13 +54,21 @@ function draw() {
   describe();
 }
 
+function stateOfLines() {
+  if (plan.waits) return "plan_waits";
+  if (plan.outcome) return ENDS[plan.outcome] ?? "plan_last";
+  if (plan.isPaused) return "paused";
+  return plan.step ? "plan_runs" : "plan_last";
+}
+
 function describe() {
   let key = "plan_none";
   if (plan.isProgram) key = "plan_program";
-  if (plan.lines.length) key = plan.waits ? "plan_waits" : plan.isPaused ? "paused" : plan.step ? "plan_runs" : "plan_last";
-  if (!state.isOpen && (plan.waits || plan.step)) key = "plan_unknown";
+  if (plan.lines.length) key = stateOfLines();
+  if (!state.isOpen && (plan.waits || (plan.step && !plan.outcome))) key = "plan_unknown";
   if (plan.isEdited) key = "plan_help";
   setText(about, t(key));
+  about.classList.toggle("undone", Object.values(ENDS).includes(key));
   byId("plan-run").hidden = !plan.isEdited && !plan.waits;
   setText(byId("plan-run"), t(plan.isEdited ? "plan_try" : "do_it"));
   setText(byId("plan-edit"), t(plan.lines.length ? "edit" : "plan_write"));
@@ -138,7 +149,7 @@ const heard = {
     if (event.turn === plan.turn) plan.waits = event.needs_approval;
   },
   started(event) {
-    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 1, isPaused: false });
+    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 1, outcome: "", isPaused: false });
   },
   paused(event) {
     if (event.turn === plan.turn) plan.isPaused = true;
@@ -149,7 +160,7 @@ const heard = {
     return true;
   },
   result(event) {
-    if (event.turn === plan.turn) Object.assign(plan, { waits: false, step: 0, outcome: event.outcome, isPaused: false });
+    if (event.turn === plan.turn) Object.assign(plan, { waits: false, outcome: event.outcome, isPaused: false });
   },
 };
 
@@ -160,6 +171,9 @@ export function startPlan() {
   on("open", () => {
     show(0, []);
     draw();
+  });
+  on("said", ({ turn, text: said }) => {
+    if (plan.isSent && !plan.turn && said === plan.lines.join("\n")) plan.turn = turn; // its end is told even where it cannot be read
   });
   on("event", ({ event }) => {
     const hear = heard[event.event];

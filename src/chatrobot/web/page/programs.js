@@ -3,7 +3,7 @@
 import { on, send, state, tell } from "./connection.js";
 import { byId, make, makeButton, setText } from "./dom.js";
 import { notice } from "./steering.js";
-import { onLanguage, t } from "./words.js";
+import { decimal, onLanguage, t } from "./words.js";
 
 const MOST_LOG_LINES = 200;
 
@@ -118,7 +118,7 @@ const heard = {
     setText(byId("program-about"), `${byId("program-about").textContent} · ${t("program_edit_kept")}`);
   },
   program_log(event) {
-    if (event.turn === runningTurn || !runningTurn) logLine(`${event.t_s.toFixed(1)} s  ${event.text}`, event.level);
+    if (event.turn === runningTurn || !runningTurn) logLine(`${decimal(event.t_s, 1)} s  ${event.text}`, event.level);
   },
   started(event) {
     if (event.turn === runningTurn) logLine(t("program_started", { name: runs }), "rehearsed");

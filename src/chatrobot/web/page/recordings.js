@@ -2,7 +2,7 @@
 
 import { send } from "./connection.js";
 import { byId, make, makeButton, setChanging, setText } from "./dom.js";
-import { language, onLanguage, t } from "./words.js";
+import { decimal, language, onLanguage, t } from "./words.js";
 
 const LOOK_MS = 3000;
 const REALLY_MS = 4000;
@@ -43,7 +43,7 @@ function deleteAfterAsking(name) {
 }
 
 function sizeOf(bytes) {
-  return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+  return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${decimal(bytes / 1e6, 1)} MB`;
 }
 
 /** Fetch a file and have the browser save it; a report takes a moment to be made, and its maker may say why not. */

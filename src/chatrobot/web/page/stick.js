@@ -4,8 +4,9 @@
  */
 
 import { on, send, state, tell } from "./connection.js";
-import { byId, isField } from "./dom.js";
+import { byId, isField, keepInTab, setText, takeFromTab } from "./dom.js";
 import { isMoving } from "./gauges.js";
+import { decimal, onLanguage, t } from "./words.js";
 
 const KEYS = {
   KeyW: [1, 0, 0], ArrowUp: [1, 0, 0], KeyS: [-1, 0, 0], ArrowDown: [-1, 0, 0],
@@ -15,6 +16,7 @@ const KEYS = {
 const DEAD = 0.08;
 const FULL = 1;
 const STILL_MS = 800;
+const KEPT = "chatrobot-stick-speed";
 
 const held = new Set();
 const pad = byId("pad");
@@ -142,6 +144,30 @@ function startSide(button, direction) {
   }
 }
 
+function showSpeed() {
+  if (!state.hello) return;
+  const text = t("mps_value", { value: decimal((Number(speed.value) / 100) * state.hello.robot.limits.max_speed_mps, 2) });
+  setText(byId("stick-mps"), text);
+  speed.setAttribute("aria-valuetext", text);
+}
+
+/** The speed is the robot's usual one until a person chooses another, which outlives a reload. */
+function startSpeed() {
+  let chosen = takeFromTab(KEPT);
+  speed.addEventListener("input", () => {
+    chosen = speed.value;
+    showSpeed();
+  });
+  addEventListener("pagehide", () => chosen && keepInTab(KEPT, chosen));
+  on("open", () => {
+    const { defaults, limits } = state.hello.robot;
+    const usual = defaults ? defaults.speed_mps / limits.max_speed_mps : 0.3;
+    speed.value = chosen || String(Math.round(usual * 100));
+    showSpeed();
+  });
+  onLanguage(showSpeed);
+}
+
 export function startStick() {
   addEventListener("keydown", keyDown);
   addEventListener("keyup", keyUp);
@@ -156,13 +182,11 @@ export function startStick() {
     if (button && detail) button.blur(); // a mouse leaves the focus there, and keys would drive no more
   });
   startPad();
+  startSpeed();
   startSide(byId("side-left"), 1);
   startSide(byId("side-right"), -1);
   on("open", () => {
-    const robot = state.hello.robot;
-    byId("sideways").hidden = !robot.sideways;
-    const usual = robot.defaults ? robot.defaults.speed_mps / robot.limits.max_speed_mps : 0.3;
-    speed.value = String(Math.round(usual * 100));
+    byId("sideways").hidden = !state.hello.robot.sideways;
     release();
   });
   on("closed", () => {

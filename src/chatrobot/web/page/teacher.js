@@ -4,7 +4,7 @@ import { connect, on, send } from "./connection.js";
 import { byId, make, makeButton, restButton, setBanner, setChanging, setText, startMenus } from "./dom.js";
 import { showRecordings, startRecordings } from "./recordings.js";
 import { onStop } from "./stop.js";
-import { firstLanguage, language, onLanguage, setLanguage, startLanguageMenu, t } from "./words.js";
+import { decimal, firstLanguage, language, onLanguage, setLanguage, startLanguageMenu, t } from "./words.js";
 
 const NOTICE_MS = 6000;
 const BY_HAND_MS = 60000;
@@ -91,11 +91,6 @@ function label(button, text, name) {
   button.setAttribute("aria-label", `${text}: ${name}`);
 }
 
-/** Never "-0.00". */
-function metres(value) {
-  return (Math.round(100 * value) / 100 || 0).toFixed(2);
-}
-
 function stateOf(robot) {
   if (robot.gone) return "state_unknown";
   if (robot.emergency) return "state_emergency";
@@ -112,7 +107,7 @@ function drawCard(robot) {
   setText(card.who, robot.is_looked_at ? `${who} · ${t("teacher_looks")}` : who);
   const [x, y, yaw] = robot.pose || [0, 0, 0];
   const heading = Math.round((Math.atan2(Math.sin(yaw), Math.cos(yaw)) * 180) / Math.PI) || 0;
-  setText(card.where, robot.pose ? t("pose", { x: metres(x), y: metres(y), heading }) : "");
+  setText(card.where, robot.pose ? t("pose", { x: decimal(x, 2), y: decimal(y, 2), heading }) : "");
   drawTask(card.lesson, robot.lesson);
   setText(card.heard, robot.said);
   setText(card.doing, robot.plan_text || robot.reply);

@@ -34,6 +34,12 @@ export function t(key, values = {}) {
   return text.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
 
+/** Write a number with so many decimals, as the page's language does. */
+export function decimal(value, digits) {
+  const form = { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false };
+  return (Number(value.toFixed(digits)) || 0).toLocaleString(LANGUAGES[code][1], form); // no -0
+}
+
 /** Have `listener` called whenever the language changed. */
 export function onLanguage(listener) {
   listeners.push(listener);
