@@ -59,7 +59,7 @@ def test_a_sentence_is_rehearsed_on_the_map_approved_and_driven(page: Page) -> N
     do_it.click()
     expect(page.locator("#turns .robot").last).to_have_attribute("data-outcome", "completed")
     assert "0.50 m" in last_reply(page)
-    wait_until(lambda: count_pixels(page, "driven") > 50)
+    wait_until(lambda: count_pixels(page, "driven") > 20)
     assert count_pixels(page, "rehearsed") == 0
 
 

@@ -1,11 +1,12 @@
 /** Draws the floor: what stands there, places, paths, what the lidar sees, the robot. Colours come from the style. */
 
 import { obstacleName, placeName } from "./places.js";
+import { decimal, t } from "./words.js";
 
 const WALL_M = 0.16;
 const COLOURS = [
-  "floor", "grid", "area", "wall", "thing", "thing-edge", "label", "place", "driven", "rehearsed", "lidar", "robot",
-  "robot-edge", "ring", "target", "halo",
+  "floor", "grid", "area", "wall", "thing", "thing-edge", "added", "added-edge", "label", "place", "driven", "rehearsed",
+  "lidar", "robot", "robot-edge", "ring", "target", "halo",
 ];
 
 /** Return the colours of the style that holds now. */
@@ -18,6 +19,7 @@ export class Drawing {
   constructor(context, view, colours, font) {
     Object.assign(this, { context, view, colours, font });
     this.labels = [];
+    this.pinned = []; // never left out
   }
 
   path(points, isClosed = false) {
@@ -76,14 +78,30 @@ export class Drawing {
     for (const one of world.obstacles) {
       if (one.circle) this.disc(one.circle.x_m, one.circle.y_m, one.circle.radius_m);
       else this.path(one.polygon, true);
+      if (one.added) {
+        this.added(one);
+        continue;
+      }
       const isWall = one.polygon && thickness(one.polygon) < WALL_M;
       this.fill(isWall ? "wall" : "thing");
       if (isWall) continue;
       this.stroke("thing-edge", 1);
       const name = obstacleName(one, world.places);
-      const [x, y] = one.circle ? [one.circle.x_m, one.circle.y_m] : middle(one.polygon);
-      if (!named.has(name.toLowerCase())) this.labels.push({ name, at: this.view.toScreen(x, y), colour: "label" });
+      if (!named.has(name.toLowerCase())) this.labels.push({ name, at: this.middleOf(one), colour: "label" });
     }
+  }
+
+  /** What a person put there is told from the furniture: its number, or its name, is never left out. */
+  added(one) {
+    this.fill("added");
+    this.stroke("added-edge", 2);
+    const name = /\d+$/.exec(one.name)?.[0] ?? one.name;
+    this.pinned.push({ name, at: this.middleOf(one), colour: "added-edge" });
+  }
+
+  middleOf(one) {
+    const [x, y] = one.circle ? [one.circle.x_m, one.circle.y_m] : middle(one.polygon);
+    return this.view.toScreen(x, y);
   }
 
   disc(x, y, radius) {
@@ -114,7 +132,7 @@ export class Drawing {
     const { context } = this;
     const taken = [];
     Object.assign(context, { font: this.font, textAlign: "center", textBaseline: "middle", lineWidth: 3, lineJoin: "round" });
-    for (const { name, at: [right, down], colour } of this.labels) {
+    for (const { name, at: [right, down], colour } of [...this.pinned, ...this.labels]) {
       const half = context.measureText(name).width / 2 + 3;
       const box = [right - half, down - 9, right + half, down + 9];
       if (taken.some((one) => box[0] < one[2] && one[0] < box[2] && box[1] < one[3] && one[1] < box[3])) continue;
@@ -204,7 +222,7 @@ export class Drawing {
     context.lineTo(left + length * view.scale, down - 5);
     this.stroke("label", 2);
     Object.assign(context, { font: this.font, textAlign: "left", textBaseline: "bottom", fillStyle: this.colours.label });
-    context.fillText(`${length} m`, left + 5, down - 5);
+    context.fillText(t("metres", { value: decimal(length, length < 1 ? 1 : 0) }), left + 5, down - 5);
   }
 }
 

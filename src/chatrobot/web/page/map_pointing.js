@@ -13,8 +13,8 @@ const STEP = 1.25;
 const KEY_STEP_PX = 24;
 const KEY_TURN_RAD = Math.PI / 12;
 
-/** Begin. `known.target` is where a person points; `go` sends the robot there. */
-export function startPointing({ view, known, redraw, go, release }) {
+/** Begin. `known.target` is where a person points; `go` sends the robot there, and `enter` does so by a key. */
+export function startPointing({ view, known, redraw, go, enter, release }) {
   const floor = byId("floor");
   const fingers = new Map();
   let start = null;
@@ -145,7 +145,7 @@ export function startPointing({ view, known, redraw, go, release }) {
     else if (event.key === "Enter" && isPutting() && known.target) {
       putAt([known.target.x, known.target.y]);
       known.target = null;
-    } else if (event.key === "Enter") go();
+    } else if (event.key === "Enter") event.repeat || enter();
     else if (event.key === "+" || event.key === "=") zoom(STEP);
     else if (event.key === "-") zoom(1 / STEP);
     else if (event.key === "Backspace" || event.key === "Delete") known.target = null;

@@ -2,7 +2,6 @@
 
 const LEAST_SCALE = 8;
 const MOST_SCALE = 600;
-const INSET_PX = { top: 62, right: 58, bottom: 40, left: 24 }; // for the buttons and the scale bar
 
 export class View {
   constructor() {
@@ -65,12 +64,11 @@ export class View {
     this.y = this.sin * x + this.cos * y;
   }
 
-  /** Show all these points of the floor. */
-  fit(points) {
+  /** Show all these points of the floor, within `inset` pixels of each edge: there are buttons and the scale bar. */
+  fit(points, { top, right: end, bottom, left: begin }) {
     const turned = points.map(([x, y]) => [this.cos * x - this.sin * y, this.sin * x + this.cos * y]);
     const [xs, ys] = [turned.map((one) => one[0]), turned.map((one) => one[1])];
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    const { top, right: end, bottom, left: begin } = INSET_PX;
     const across = (this.width - begin - end) / Math.max(right - left, 1);
     const up = (this.height - top - bottom) / Math.max(high - low, 1);
     this.scale = Math.max(LEAST_SCALE, Math.min(MOST_SCALE, across, up));
