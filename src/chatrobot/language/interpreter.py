@@ -37,30 +37,26 @@ from chatrobot.language.likeliest import likeliest, remarked
 from chatrobot.language.meant import says_meant
 from chatrobot.language.misspelt import misspelt_place
 from chatrobot.language.names import names_in
-from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.normalise import MAX_CHARACTERS, normalise
 from chatrobot.language.one_by_one import one_by_one
 from chatrobot.language.passed_over import passed_over
 from chatrobot.language.phrases import say
-from chatrobot.language.place_questions import answer_about_places, by_distance_to_place, with_spoken_place
+from chatrobot.language.place_questions import by_distance_to_place, with_spoken_place
 from chatrobot.language.pointing import beside_reference
 from chatrobot.language.points import naming_points, with_points
 from chatrobot.language.program_request import read_program_request
 from chatrobot.language.proposals import proposed
-from chatrobot.language.putting import read_putting
+from chatrobot.language.read_apart import read_apart
 from chatrobot.language.reading import Reading
-from chatrobot.language.remembering import read_named_here
 from chatrobot.language.rephrase import in_full, in_full_after, rephrased, with_breaks
 from chatrobot.language.resuming import of_rest
 from chatrobot.language.selections import wants_part
 from chatrobot.language.set_off import set_off
-from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.slips import without_slips
 from chatrobot.language.speed_limit import bounded, plan_within, within_limit, without_limit
 from chatrobot.language.starting import (
     as_ordered,
     has_a_stop_line,
-    tries_again,
     with_told_apart,
     without_hold,
 )
@@ -69,7 +65,6 @@ from chatrobot.language.to_taught import to_taught
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
-from chatrobot.language.usual import read_limit
 from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
 from chatrobot.language.where_to import where_to
 from chatrobot.language.wishes import of_wish
@@ -223,7 +218,12 @@ class OfflineInterpreter:
             Unclear: where nothing is ordered, or what is ordered is not understood.
         """
         plain = normalise(text)
-        told = self._told(plain, language, context)
+        told = read_apart(
+            plain,
+            Reading(language, context, self._profile),
+            lambda said: self._meant(said, language, context),
+            lambda part: self._steps(part, language, context),
+        )
         if told is not None:
             return told
         check_unconditional(plain, language)
@@ -272,30 +272,6 @@ class OfflineInterpreter:
         with contextlib.suppress(Unclear):
             return self._interpreted(asked, language, context) if asked else None
         return None
-
-    def _told(self, plain: str, language: LanguageCode, context: Context) -> Interpretation | None:
-        """What readers of their own answer, remember, put somewhere or go on with; None where none of them does."""
-        told = (
-            answer_about_places(plain, language, context)
-            or read_limit(plain, Reading(language, context, self._profile))
-            or read_naming(plain, language, context)
-            or read_putting(plain, language, context)
-            or read_named_here(
-                plain,
-                Reading(language, context, self._profile),
-                lambda part: self._steps(part, language, context),
-            )
-            or told_what_it_would_do(plain, language, lambda said: self._meant(said, language, context))
-        )
-        if told is not None:
-            return told
-        refused = context.dialogue.refused
-        if refused is not None and refused.wanted is not None and tries_again(plain, language):
-            return planned([*refused.wanted.steps], language)
-        part = part_of_shape(
-            plain, language, context.dialogue, lambda whole: self._steps(whole, language, context)
-        )
-        return planned(part, language) if part is not None else None
 
     def read_order(self, text: str, reading: Reading) -> Interpretation:
         """What a normalised text orders by the rules alone: nothing is left out of it.
