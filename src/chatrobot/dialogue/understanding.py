@@ -282,8 +282,7 @@ class Understanding:
         record = TurnRecord(
             text, outcome, plan, walk=meant.walk, program=program_number, told=told, corrects=meant.corrects
         )
-        record = replace(record, wanted=meant.plan if outcome == "refused" else None)
-        self._note_end(record, finished)
+        self._note_end(replace(record, wanted=meant.plan if outcome == "refused" else None), finished)
         if outcome == "refused":  # `no, 2 m` changes what could not be done
             self._dialogue = replace(self._dialogue, offered=meant.plan)
         return say(meant.language, "only_rehearsed") if rehearse_only and outcome == "completed" else told
