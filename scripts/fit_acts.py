@@ -31,11 +31,11 @@ from tests.language.dialogue_runner import Conversation, run_item
 from tests.language.test_sayings import sayings
 
 from chatrobot.cli.eval.corpus import Item, load_corpus
-from chatrobot.language import interpreter
+from chatrobot.language import asked
 from chatrobot.language.acts import SLOTS, features
 from chatrobot.language.data_files import DATA, LANGUAGES
 from chatrobot.language.fitted import SCALE, slot_of
-from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.interpretation import Interpretation, Usual
 from chatrobot.language.normalise import normalise
 from chatrobot.language.signs import clauses_of
 from chatrobot.reflex import is_stop
@@ -124,8 +124,7 @@ def _of_dialogue(turns: Iterable[str], source: str) -> Iterator[Example]:
 
 def is_set(meant: Interpretation) -> bool:
     """Whether a speed, a word or a place is set for what comes: an order, though nothing moves."""
-    speeds = meant.default_speed_mps or meant.default_rate_radps
-    return bool(speeds or meant.define or meant.remember_place)
+    return bool(meant.usual != Usual() or meant.define or meant.remember_place)
 
 
 def said_in_tests() -> Iterator[Example]:
@@ -156,10 +155,7 @@ def _strings(node: ast.AST) -> set[str]:
 @contextlib.contextmanager
 def without_reader() -> Iterator[None]:
     """What is done is known from the rest of the interpreter alone: the reader must not teach itself."""
-    with (
-        mock.patch.object(interpreter, "orders", return_value=True),
-        mock.patch.object(interpreter, "without", return_value=""),
-    ):
+    with mock.patch.object(asked, "is_ordered", return_value=True):
         yield
 
 
