@@ -32,7 +32,7 @@ def test_it_says_why_it_asked_and_why_it_did_nothing() -> None:
 def test_a_text_that_is_put_into_known_words_is_shown_in_them() -> None:
     told = why("Fahr einen Meter und ein Viertel vor")
     assert "In den Wörtern, die ich lese: drive a metre and a quarter of a metre forward" in told
-    assert "Deshalb wird es getan: 1.25 m vorwärts fahren" in told
+    assert "Deshalb wird es getan: 1,25 m vorwärts fahren" in told
 
 
 def test_a_point_is_one_word_and_shown_as_it_was_written() -> None:

@@ -257,7 +257,7 @@ def _of_the_same_shape(whole: Frame, context: Context) -> list[Step] | None:
     last = context.dialogue.last_motion
     if last is None or last.plan is None or whole.q or whole.place or is_correction(last):
         return None
-    if not _ONE_MORE & whole.flags or whole.flags - _ONE_MORE - {"other_way", "instead"}:
+    if not _ONE_MORE & whole.flags or whole.flags - _ONE_MORE - {"other_way", "mirrored", "instead"}:
         return None
     steps, side = list(last.plan.steps), whole.rot or whole.direction
     if not (whole.shape in shapes_said(last.text) if whole.shape else _is_curve(whole, steps)):
