@@ -40,3 +40,12 @@ def test_a_motion_since_then_is_what_again_means() -> None:
     assert _plans(rig, TOO_FAR)[0] == "refused"
     assert _plans(rig, "turn left 90")[0] == "completed"
     assert _plans(rig, "again") == ("completed", "turn left 90 deg")
+
+
+def test_try_again_after_what_was_not_understood_repeats_nothing() -> None:
+    rig = UndoRig("home")
+    assert _plans(rig, "turn left 90")[0] == "completed"
+    assert _plans(rig, "go to the counter")[0] == "unclear"
+    assert _plans(rig, "try again")[0] == "unclear"
+    assert _plans(rig, "turn left 90")[0] == "completed"
+    assert _plans(rig, "try again") == ("completed", "turn left 90 deg")

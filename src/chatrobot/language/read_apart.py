@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from chatrobot.language.interpretation import Interpretation, planned
+from chatrobot.language.interpretation import Interpretation, asked_back, planned
 from chatrobot.language.naming import read_naming, told_what_it_would_do
 from chatrobot.language.place_questions import answer_about_places
 from chatrobot.language.putting import read_putting
@@ -13,6 +13,7 @@ from chatrobot.language.reading import Reading
 from chatrobot.language.remembering import read_named_here
 from chatrobot.language.shape_parts import part_of_shape
 from chatrobot.language.starting import tries_again
+from chatrobot.language.unclear import Unclear
 from chatrobot.language.usual import read_limit
 from chatrobot.plan.steps import Step
 
@@ -35,8 +36,11 @@ def read_apart(
     )
     if told is not None:
         return told
-    refused = context.dialogue.refused
-    if refused is not None and refused.wanted is not None and tries_again(plain, language):
-        return planned([*refused.wanted.steps], language)
+    refused, turns = context.dialogue.refused, context.dialogue.turns
+    if turns and tries_again(plain, language):
+        if refused is not None and refused.wanted is not None:
+            return planned([*refused.wanted.steps], language)
+        if turns[-1].outcome == "unclear":
+            return asked_back(Unclear("unclear_motion", plain), language)
     part = part_of_shape(plain, language, context.dialogue, steps)
     return planned(part, language) if part is not None else None
