@@ -10,14 +10,13 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
 
-from chatrobot.language.data_files import LANGUAGES, load_table
+from chatrobot.language.data_files import load_table
 from chatrobot.language.frames import SIDES
 from chatrobot.language.inverse import is_sideways
 from chatrobot.language.last_motion import atoms_said
 from chatrobot.language.ledger import TurnRecord
-from chatrobot.language.rules import Form, form
+from chatrobot.language.rules import form
 from chatrobot.language.selection_forms import number_said
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -82,7 +81,7 @@ def _measure(plain: str, language: str, steps: Sequence[Step], before: Sequence[
     """The measure of a figure that is named, where the figure before is only done several times."""
     last = before[-1]
     count = len(steps) // len(last)
-    found = _form(language, "measure").search(plain)
+    found = form(language, "passed_over", "measure").search(plain)
     return found.group() if found is not None and count > 1 and [*steps] == last * count else ""
 
 
@@ -90,7 +89,7 @@ def _likeness(
     plain: str, language: str, atoms: Sequence[Atom], steps: Sequence[Step], before: Sequence[list[Step]]
 ) -> str:
     """What likens an order without an amount to a motion before, where no motion before was so far."""
-    found = _form(language, "likeness").search(plain)
+    found = form(language, "passed_over", "likeness").search(plain)
     if found is None or any(atom.kind == "q" and not _is_pronoun(atom) for atom in atoms):
         return ""
     far = [[step.distance_m for step in each if isinstance(step, Drive)] for each in (*before, steps)]
@@ -109,16 +108,11 @@ def _without_part(plain: str, language: str, turns: int) -> Iterator[tuple[str, 
 
     A heading (“step two: turn left”) names none, and that of the last of so many turns only tells it again.
     """
-    at, part = 0, _form(language, "part")
-    numbers = load_table(language if language in LANGUAGES else LANGUAGES[0], "selections")
+    at, part = 0, form(language, "passed_over", "part")
+    numbers = load_table(language, "selections")
     while (found := part.search(plain, at)) is not None:
         at = found.end()
         said = found.groupdict(default="")
         number = number_said(said, "nth", numbers) or number_said(said, "count", numbers)
         if number != turns and plain[at : at + 1] not in (*":,，",):
             yield found.group(), f"{plain[: found.start()]} {plain[at:]}".strip()
-
-
-@cache
-def _form(language: str, name: str) -> Form:
-    return form(language if language in LANGUAGES else LANGUAGES[0], "passed_over", name)
