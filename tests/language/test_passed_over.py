@@ -28,6 +28,8 @@ def _last(*turns: str) -> str:
         ("forward 2.5 m", "turn right", "and now the same distance as in the very first order"),
         (CIRCLE, "now another one the same way round, but with twice the radius"),
         ("another two metres", "last one in reverse now, same pace"),
+        ("slide left 30 cm", "to the right, twice"),
+        ("rutsch 30 cm nach links", "nach rechts, zweimal"),
         ("先前进三十公分,再左转,再往右平移五十公分", "哎呀,第三个动作朵朵没看见,就那个再做一遍好不好"),
     ],
 )

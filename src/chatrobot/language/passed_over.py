@@ -27,6 +27,8 @@ _TURNED_ROUND = frozenset(
 )
 """Verbs and flags by which a side that is named may be that of what was done, and not of what is to be done."""
 _MAY_BE_OF_BEFORE = frozenset({"correction", "negation", "complaint"})
+_TURNING = frozenset({"angle", "turns", "number"})
+"""Amounts of a turn: `left 90`, in degrees."""
 _SAME_M = 1e-6
 
 
@@ -44,6 +46,7 @@ def passed_over(
     atoms = atoms_said(plain)
     return (
         _other_side(atoms, plan.steps, before[-1])
+        or _side_of_slide(atoms, plan.steps, before[-1])
         or _measure(plain, language, plan.steps, before)
         or _likeness(plain, language, atoms, plan.steps, before)
         or next(
@@ -67,6 +70,15 @@ def _other_side(atoms: Sequence[Atom], steps: Sequence[Step], last: Sequence[Ste
     turned = any(atom.value in _TURNED_ROUND or atom.kind in _MAY_BE_OF_BEFORE for atom in atoms)
     done = {side for step in steps if (side := _side_of(step))}
     return next(iter(said.values())) if len(said) == 1 and done and not done & {*said} and not turned else ""
+
+
+def _side_of_slide(atoms: Sequence[Atom], steps: Sequence[Step], last: Sequence[Step]) -> str:
+    """The side that is named without a turn, where the robot would turn after a slide: `to the right, twice`."""
+    sides = [atom.text for atom in atoms if atom.kind == "dir" and atom.value in SIDES]
+    tells_turn = any(atom.kind in ("verb", "rot") or atom.value in _TURNING for atom in atoms)
+    turns = all(isinstance(step, Turn) for step in steps)
+    slid = isinstance(last[-1], Drive) and is_sideways(last[-1])
+    return sides[0] if sides and turns and slid and not tells_turn else ""
 
 
 def _side_of(step: Step) -> str:
