@@ -3,25 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from tests.dialogue.undo_rig import UndoRig
+from tests.dialogue.undo_rig import UndoRig, on_its_way_to, said
 
 from chatrobot.core.geometry import Pose
-from chatrobot.dialogue.options import Options
 
 
 @pytest.fixture
 def rig() -> UndoRig:
     """On its way to the kitchen."""
-    rig = UndoRig("home", None, Options(while_moving="replace"))
-    rig.session.say("go to the kitchen")
-    rig.live(2.0)
-    return rig
-
-
-def said(rig: UndoRig, text: str, wait_s: float = 1.0) -> int:
-    turn = rig.session.say(text)
-    rig.live(wait_s)
-    return turn
+    return on_its_way_to("kitchen")
 
 
 @pytest.mark.parametrize(

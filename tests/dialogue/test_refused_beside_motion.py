@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from tests.dialogue.undo_rig import UndoRig
+from tests.dialogue.undo_rig import UndoRig, on_its_way_to, said
 
 from chatrobot.core.events import Finished, Started
-from chatrobot.dialogue.options import Options
 from chatrobot.motion import plan_rehearsal
 
 REFUSED = "drive a circle with radius 5 metres"
@@ -17,16 +16,7 @@ REFUSED = "drive a circle with radius 5 metres"
 @pytest.fixture
 def rig() -> UndoRig:
     """On its way to the sofa."""
-    rig = UndoRig("home", None, Options(while_moving="replace"))
-    rig.session.say("go to the sofa")
-    rig.live(2.0)
-    return rig
-
-
-def said(rig: UndoRig, text: str, wait_s: float = 1.0) -> int:
-    turn = rig.session.say(text)
-    rig.live(wait_s)
-    return turn
+    return on_its_way_to("sofa")
 
 
 @pytest.mark.parametrize(

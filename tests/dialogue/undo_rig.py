@@ -147,3 +147,18 @@ class UndoRig:
                 return
             self.session.pump(0.02)
         raise AssertionError("it did not come to pass")
+
+
+def on_its_way_to(place: str) -> UndoRig:
+    """A robot at home that drives to a place, where what is said replaces what it does."""
+    rig = UndoRig("home", None, Options(while_moving="replace"))
+    rig.session.say(f"go to the {place}")
+    rig.live(2.0)
+    return rig
+
+
+def said(rig: UndoRig, text: str, wait_s: float = 1.0) -> int:
+    """Say that, and let some time pass; return its turn."""
+    turn = rig.session.say(text)
+    rig.live(wait_s)
+    return turn

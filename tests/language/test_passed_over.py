@@ -4,21 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.plan.text import format_plan
 from tests.language.dialogue_runner import Conversation
+from tests.language.test_cautions import done
 
 FOUR_STEPS = "1 m forward, turn left, 80 cm forward, slide 20 cm right"
 CIRCLE = "drive a full circle to the left with a diameter of one metre"
 SQUARE = "走一个边长40cm的正方形,往左拐"
-
-
-def _last(*turns: str) -> str:
-    """The plan of the last turn, in one line, or how it ended."""
-    talk = Conversation()
-    for turn in turns[:-1]:
-        talk.say(turn)
-    meant = talk.say(turns[-1])
-    return format_plan(meant.plan).replace("\n", "; ") if meant.plan is not None else meant.outcome
 
 
 @pytest.mark.parametrize(
@@ -34,7 +25,7 @@ def _last(*turns: str) -> str:
     ],
 )
 def test_a_part_of_before_that_changes_nothing_is_asked_about(turns: tuple[str, ...]) -> None:
-    assert _last(*turns) == "unclear"
+    assert done(*turns) == "unclear"
 
 
 @pytest.mark.parametrize(
@@ -49,7 +40,7 @@ def test_a_part_of_before_that_changes_nothing_is_asked_about(turns: tuple[str, 
     ],
 )  # fmt: skip
 def test_a_part_of_before_that_is_heeded_is_done(turns: tuple[str, ...], plan: str) -> None:
-    assert _last(*turns) == plan
+    assert done(*turns) == plan
 
 
 @pytest.mark.parametrize(
@@ -64,7 +55,7 @@ def test_a_part_of_before_that_is_heeded_is_done(turns: tuple[str, ...], plan: s
     ],
 )  # fmt: skip
 def test_how_it_is_done_is_no_second_time(turns: tuple[str, ...], plan: str) -> None:
-    assert _last(*turns) == plan
+    assert done(*turns) == plan
 
 
 @pytest.mark.parametrize(
@@ -81,7 +72,7 @@ def test_how_it_is_done_is_no_second_time(turns: tuple[str, ...], plan: str) -> 
     ],
 )
 def test_a_figure_of_speech_and_a_bound_are_no_order(said: str) -> None:
-    assert _last("drive 1 m back", said) == "unclear"
+    assert done("drive 1 m back", said) == "unclear"
 
 
 def test_what_was_offered_goes_to_the_side_that_is_said_next() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 
 from chatrobot import reflex
@@ -15,7 +16,7 @@ from chatrobot.language.edits import edited
 from chatrobot.language.figures import figure_asked, with_another_size, with_side_and_size
 from chatrobot.language.frames import STILL, Frame
 from chatrobot.language.heeded import check_heeded
-from chatrobot.language.interpretation import Interpretation, planned, stopped
+from chatrobot.language.interpretation import Interpretation, LanguageCode, planned, stopped
 from chatrobot.language.meant import is_correction
 from chatrobot.language.names import names_in
 from chatrobot.language.part_changed import part_changed
@@ -166,13 +167,9 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
     both = with_side_and_size(atoms, dialogue)
     if both is not None:
         return both
-    size = with_another_size(plain, atoms, language)
-    if size is not None and (len(before) > 1 or size.roles != {"side"}):
-        sized = resized(list(before), size)
-        if sized is not None:
-            return sized
-        if not any(a.value == "again" for a in atoms):
-            raise Unclear("which_size", size.amounts[0].text)  # `now with 30 cm` after sides of two lengths
+    sized = _of_another_size(plain, atoms, before, language)
+    if sized is not None:
+        return sized
     if len(atoms) > 2 and atoms[-2].kind == "conn" and points_at_before(atoms[-1], language):
         own = frames_of(atoms[:-2])
         if any(frame.moves for frame in own):
@@ -186,14 +183,42 @@ def of_before(plain: str, atoms: list[Atom], reading: Reading) -> list[Step] | N
         any(map(takes_from_before, own)) or is_correction(dialogue.last_motion)
     ):
         return [*before, *reading.steps_of_their_own(own)]
-    changed = edited(atoms, dialogue)
+    return _edited_whole(plain, atoms, before, reading)
+
+
+def _of_another_size(
+    plain: str, atoms: list[Atom], before: Sequence[Step], language: LanguageCode
+) -> list[Step] | None:
+    """The motion before in the size that is told; None where none is, or it says something else besides.
+
+    Raises:
+        Unclear: it has sides of two lengths.
+    """
+    size = with_another_size(plain, atoms, language)
+    if size is None or (len(before) == 1 and size.roles == {"side"}):
+        return None
+    sized = resized(list(before), size)
+    if sized is None and not any(a.value == "again" for a in atoms):
+        raise Unclear("which_size", size.amounts[0].text)
+    return sized
+
+
+def _edited_whole(
+    plain: str, atoms: list[Atom], before: Sequence[Step], reading: Reading
+) -> list[Step] | None:
+    """All of the motion before as it is wanted now; None where that is no edit of it.
+
+    Raises:
+        Unclear: it wants no more than a part that it names.
+    """
+    changed = edited(atoms, reading.context.dialogue)
     leaves_out = any(a.value in ("leave_out", "first", "swapped") for a in atoms)
     again = any(a.value == "again" for a in atoms)
     said = sum(a.kind in ("verb", "q", "shape", "dir", "rot") for a in atoms)
     undoes = any((a.kind, a.value) == ("verb", "undo") for a in atoms)
     points = again or (len(before) > 1 and said <= _MOST_SAID_OF_PART and not undoes)
-    if points and not (changed is not None and leaves_out) and names_a_part(plain, language):
-        raise Unclear("unclear_motion", plain[:60])  # it wants no more than that part
+    if points and not (changed is not None and leaves_out) and names_a_part(plain, reading.language):
+        raise Unclear("unclear_motion", plain[:60])
     return changed
 
 
