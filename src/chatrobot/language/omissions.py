@@ -14,7 +14,8 @@ from typing import NamedTuple
 
 from chatrobot.language.acts import read_acts
 from chatrobot.language.aside_features import frame_word
-from chatrobot.language.beside import MAYBE_ASIDE, SURELY_NOT_MEANT, asides
+from chatrobot.language.beside import BEARS, MAYBE_ASIDE, SURELY_NOT_MEANT, asides
+from chatrobot.language.data_files import relation_words
 from chatrobot.language.fitted import SCALE, bucket, slot_of, weights
 from chatrobot.language.left_out import MARKS, relates, without
 from chatrobot.language.signs import Clause, Names, Sign
@@ -22,8 +23,12 @@ from chatrobot.language.unclear import Unclear
 
 MOST_WORDS, MOST_SIGNS = 8, 70
 """A run within a clause has at most so many words, and a text that is looked at so many."""
+_DOES = frozenset({"VERB", "DIR", "ROT", "SHAPE"})
+_NUMBERS = frozenset({"NUMBER", "SCALE"})
 _IDLE = frozenset({"VERB", "PLACE", "COUNTER"})
 """Labels of words of motion that people say of other things, too; every other one is of the order."""
+SURE_CLAUSE = 2.0
+"""Words are left out of a clause only where it has higher odds of an order."""
 _LIGHT = frozenset({"FLAG", "PACE"})
 _BINDS = frozenset({"not", "condition", "correction", "later", "contrast", "hypothetical"})
 """Labels of words that may change what is meant, but in a clause that is surely an aside."""
@@ -38,7 +43,7 @@ class Omission:
     """What is left out, where it begins and ends in which text, and the text without it.
 
     `slots`: those of its features; `log_odds`: how likely it is the right one; `is_known`: everybody knows its words;
-    `may_matter`: an amount, a way, a condition or another deed may be among them.
+    `is_within`: it is part of a clause; `may_matter`: an amount, a way, a condition or another deed may be among them.
     """
 
     text: str
@@ -49,6 +54,7 @@ class Omission:
     log_odds: float
     is_known: bool
     may_matter: bool
+    is_within: bool
 
     @property
     def said(self) -> str:
@@ -105,21 +111,42 @@ class _Text:
         return start, start + len(self.text[start : last.clause.stop].rstrip(MARKS))
 
     def may_matter(self, begin: int, end: int) -> bool:
-        """Whether a run may say how far, how often, which way, on what terms, or what else: it is part of a clause,
-        or its clauses may bear on the order.
-        """
+        """Whether a run may say how far, how often, which way, on what terms, or what else."""
         units = self.units[begin:end]
-        moving = {unit.sign.label for unit in units if unit.sign.moves and unit.sign.label.isupper()} - _IDLE
-        bound = moving & _LIGHT or any(unit.sign.label in _BINDS for unit in units)
+        moving = {unit.sign.label for unit in units if unit.sign.moves and unit.sign.label.isupper()}
+        bound = bool(moving & _LIGHT) or any(unit.sign.label in _BINDS for unit in units)
+        if self.is_within(begin, end):
+            near = self.units[max(begin - min(units[0].at, 2), 0) : end]  # `to the giraffe`
+            if moving or bound or any(map(_leads, near)) or self._goes_on(begin, end):
+                return True
+            return not (self._tells(begin, end) or self._orders_without(begin, end))
         odds = min(self.odds.get(unit.clause.start, 0.0) for unit in units)
-        is_whole = units[0].at == 0 and self.is_end(end)
-        is_related = any(unit.at == 0 and relates(unit.sign) for unit in units)  # `to the giraffe`
-        return (
-            not is_whole
-            or is_related
-            or bool(moving - _LIGHT)
-            or odds < (SURELY_NOT_MEANT if bound else MAYBE_ASIDE)
-        )
+        is_related = any(unit.at == 0 and relates(unit.sign) for unit in units)
+        least = SURELY_NOT_MEANT if bound else MAYBE_ASIDE
+        return is_related or bool(moving - _IDLE - _LIGHT) or odds < least
+
+    def is_within(self, begin: int, end: int) -> bool:
+        """Whether a run is no whole clauses."""
+        return self.units[begin].at != 0 or not self.is_end(end)
+
+    def _goes_on(self, begin: int, end: int) -> bool:
+        """Whether a run goes on a number, or joins something to a motion: `3 号桌`, `then greet me`."""
+        row = self.units[begin - min(self.units[begin].at, 1) : begin + 1]
+        joins = any(unit.at != 0 and unit.sign.label == "opening" for unit in row)
+        return row[0].sign.label in _NUMBERS or (joins and self.is_end(end))
+
+    def _tells(self, begin: int, end: int) -> bool:
+        """Whether the clauses of a run are surely asides."""
+        starts = {unit.clause.start for unit in self.units[begin:end]}
+        return min(self.odds.get(start, BEARS) for start in starts) >= MAYBE_ASIDE
+
+    def _orders_without(self, begin: int, end: int) -> bool:
+        """Whether each clause of a run surely orders something, and what is kept says what to do."""
+        starts = {unit.clause.start for unit in self.units[begin:end]}
+        kept = [*self.units[:begin], *self.units[end:]]
+        does = any(unit.sign.label in _DOES for unit in kept)
+        moving = {unit.clause.start for unit in kept if unit.sign.moves}
+        return does and starts <= moving and min(self.orders[start] for start in starts) >= SURE_CLAUSE
 
     def features(self, begin: int, end: int) -> Iterator[str]:
         """What the run from `begin` to `end` is like, in words."""
@@ -167,6 +194,10 @@ class _Text:
         yield f"I{bucket(max(self.orders[start] for start in starts), 1.5)}"
 
 
+def _leads(unit: Unit) -> bool:
+    return relates(unit.sign) or unit.sign.text in relation_words("leading")
+
+
 def omissions(text: str, problem: Unclear, names: Names) -> list[Omission]:
     """What may be left out of a normalised text that raised `problem`, the likeliest first; nothing of a long text."""
     marked = _Text(text, problem, names)
@@ -183,5 +214,15 @@ def omissions(text: str, problem: Unclear, names: Names) -> list[Omission]:
         odds = sum(map(fitted.__getitem__, slots)) / SCALE
         if len(rest) > 1 and (rest not in best or best[rest].log_odds < odds):
             known = all(unit.sign.known_label != "?" for unit in marked.units[begin:end])
-            best[rest] = Omission(text, start, stop, rest, slots, odds, known, marked.may_matter(begin, end))
+            best[rest] = Omission(
+                text,
+                start,
+                stop,
+                rest,
+                slots,
+                odds,
+                known,
+                marked.may_matter(begin, end),
+                marked.is_within(begin, end),
+            )
     return sorted(best.values(), key=lambda one: -one.log_odds)

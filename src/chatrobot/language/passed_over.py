@@ -7,6 +7,7 @@ in turn, and the plan must change. What they are is `passed_over.toml`.
 
 from __future__ import annotations
 
+import cmath
 import contextlib
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -20,6 +21,7 @@ from chatrobot.language.rules import form
 from chatrobot.language.selection_forms import number_said
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
+from chatrobot.plan.base import expanded
 from chatrobot.plan.steps import Arc, Drive, Plan, Step, Turn
 
 _TURNED_ROUND = frozenset(
@@ -29,6 +31,9 @@ _TURNED_ROUND = frozenset(
 _MAY_BE_OF_BEFORE = frozenset({"correction", "negation", "complaint"})
 _TURNING = frozenset({"angle", "turns", "number"})
 """Amounts of a turn: `left 90`, in degrees."""
+_SIDED = frozenset({"dir", "rot"})
+_STEPS = frozenset({"wait", "turn"})
+_CLOSED = frozenset({"square", "rectangle", "triangle", "pentagon", "hexagon", "octagon", "circle", "star"})
 _SAME_M = 1e-6
 
 
@@ -40,10 +45,11 @@ def passed_over(
     `read` makes a plan of a text; None of one that orders nothing.
     """
     moved = [turn for turn in turns if turn.moved and turn.plan is not None]
-    if not moved:
-        return ""
     before = [[*turn.plan.steps] for turn in moved if turn.plan is not None]
     atoms = atoms_said(plain)
+    found = _shape(atoms, plan.steps) or _denied(atoms, plan.steps)
+    if found or not moved:
+        return found or (_likeness(plain, language, atoms, plan.steps, before) if turns else "")
     return (
         _other_side(atoms, plan.steps, before[-1])
         or _side_of_slide(atoms, plan.steps, before[-1])
@@ -54,6 +60,28 @@ def passed_over(
             "",
         )
     )
+
+
+def _shape(atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
+    """The shape that is named where straight lines are driven that end elsewhere: `a rectangle 1.2 m by 0.5 m`."""
+    drives = [step for step in expanded(steps) if isinstance(step, Drive)]
+    if len(drives) < len(list(expanded(steps))) or not drives:
+        return ""
+    end = sum(cmath.rect(drive.distance_m or 0.0, drive.direction_rad) for drive in drives)
+    named = (atom.text for atom in atoms if atom.kind == "shape" and atom.value in _CLOSED)
+    return next(named, "") if abs(end) > _SAME_M else ""
+
+
+def _denied(atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
+    """The denied wait or turn that is in the plan all the same: `the same to the left, but without the wait`."""
+    told = [atom for atom in atoms if atom.kind != "glue"]
+    sided = {atom.text for atom in atoms if atom.kind in _SIDED}  # 不是右转: of a side, not of all turns
+    done = {step.kind for step in expanded(steps)} & _STEPS
+    for no, verb, behind in zip(told, told[1:], [*told[2:], None]):
+        is_of_side = verb.text in sided or (behind is not None and behind.kind in _SIDED)
+        if no.kind == "negation" and verb.value in done and not is_of_side:
+            return verb.text
+    return ""
 
 
 def _is_same(plan: Plan, rest: str, read: Callable[[str], Plan | None]) -> bool:
@@ -104,10 +132,16 @@ def _likeness(
     found = form(language, "passed_over", "likeness").search(plain)
     if found is None or any(atom.kind == "q" and not _is_pronoun(atom) for atom in atoms):
         return ""
-    far = [[step.distance_m for step in each if isinstance(step, Drive)] for each in (*before, steps)]
-    done = [m for each in far[:-1] for m in each if m is not None]
-    new = [m for m in far[-1] if m is not None and not any(abs(m - other) < _SAME_M for other in done)]
-    return found.group() if new and len(steps) == 1 else ""
+    done = {m for each in before for m in _lengths(each)}
+    lengths = _lengths(steps)
+    new = [m for m in lengths if not any(abs(m - other) < _SAME_M for other in done)]
+    return found.group() if new and len(lengths) == 1 else ""
+
+
+def _lengths(steps: Sequence[Step]) -> set[float]:
+    """Those of the drives, in metres."""
+    drives = [step for step in expanded(steps) if isinstance(step, Drive)]
+    return {step.distance_m for step in drives if step.distance_m is not None}
 
 
 def _is_pronoun(atom: Atom) -> bool:
