@@ -232,3 +232,20 @@ def test_a_turn_beside_what_it_joins_no_motion_with_is_asked_about(said: str) ->
 
 def test_a_turn_meanwhile_beside_nothing_is_a_turn() -> None:
     assert [type(step) for step in _after("meanwhile turn left")] == [Turn]
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("sidestep 40 centimetres to the left, then 40 to the right", "drive 0.4 m left\ndrive 0.4 m right"),
+        ("往左平移40厘米，再往右40", "drive 0.4 m left\ndrive 0.4 m right"),
+        ("fahr 2x 50 cm vor und wieder 50 zurück", "\n".join(["drive 0.5 m", "drive 0.5 m back"] * 2)),
+        ("slide left 30 cm, then right 90", "drive 0.3 m left\nturn right 90 deg"),
+        ("2 metres forward, then one further metre", "drive 2 m\ndrive 1 m"),
+        ("keep rolling ahead for eight seconds and then quit", "drive 8 s"),
+        ("往右拐个半圆,半径0.5米,半圆走完直行1米", "arc right 180 deg radius 0.5 m\ndrive 1 m"),
+        ("先按0.2 m/s走1米,紧接着提到0.6 m/s再走1米", "drive 1 m at 0.2 m/s\ndrive 1 m at 0.6 m/s"),
+    ],
+)
+def test_a_unit_or_a_speed_holds_for_what_is_alike_behind_it(said: str, plan: str) -> None:
+    assert format_plan(Plan(tuple(_after(said)))).strip() == plan

@@ -47,7 +47,7 @@ def passed_over(
     moved = [turn for turn in turns if turn.moved and turn.plan is not None]
     before = [[*turn.plan.steps] for turn in moved if turn.plan is not None]
     atoms = atoms_said(plain)
-    found = _shape(atoms, plan.steps) or _denied(atoms, plan.steps)
+    found = _shape(plain, atoms, plan.steps) or _denied(atoms, plan.steps)
     if found or not moved:
         return found or (_likeness(plain, language, atoms, plan.steps, before) if turns else "")
     return (
@@ -62,13 +62,17 @@ def passed_over(
     )
 
 
-def _shape(atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
-    """The shape that is named where straight lines are driven that end elsewhere: `a rectangle 1.2 m by 0.5 m`."""
+def _shape(plain: str, atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
+    """The shape that is named where straight lines are driven that end elsewhere: `a rectangle 1.2 m by 0.5 m`.
+
+    A word that only looks like one (“hopp”, which may be taught) names none.
+    """
     drives = [step for step in expanded(steps) if isinstance(step, Drive)]
     if len(drives) < len(list(expanded(steps))) or not drives:
         return ""
     end = sum(cmath.rect(drive.distance_m or 0.0, drive.direction_rad) for drive in drives)
-    named = (atom.text for atom in atoms if atom.kind == "shape" and atom.value in _CLOSED)
+    shapes = (atom.text for atom in atoms if atom.kind == "shape" and atom.value in _CLOSED)
+    named = (text for text in shapes if text in plain)
     return next(named, "") if abs(end) > _SAME_M else ""
 
 
