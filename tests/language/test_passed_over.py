@@ -64,6 +64,7 @@ def test_how_it_is_done_is_no_second_time(turns: tuple[str, ...], plan: str) -> 
 @pytest.mark.parametrize(
     "said",
     [
+        "right, then back up 30 cm",
         "let's step back for a minute",
         "let's step back for a minute, kids",
         "let's take a step back",
@@ -96,3 +97,7 @@ def test_a_shape_without_turns_is_driven_by_slides() -> None:
     plan = Conversation().say("draw a square with 50 cm sides sliding only").plan
     assert plan is not None
     assert len(plan.steps) == 4
+
+
+def test_a_shape_that_is_described_is_not_driven() -> None:
+    assert done("the square is 2 m wide, go forward 1 m") == "drive 1 m"

@@ -240,6 +240,10 @@ def test_a_turn_meanwhile_beside_nothing_is_a_turn() -> None:
         ("sidestep 40 centimetres to the left, then 40 to the right", "drive 0.4 m left\ndrive 0.4 m right"),
         ("往左平移40厘米，再往右40", "drive 0.4 m left\ndrive 0.4 m right"),
         ("fahr 2x 50 cm vor und wieder 50 zurück", "\n".join(["drive 0.5 m", "drive 0.5 m back"] * 2)),
+        (
+            "erst 50 cm vor, dann rechts abbiegen und nochmal 50 cm",
+            "drive 0.5 m\nturn right 90 deg\ndrive 0.5 m",
+        ),
         ("slide left 30 cm, then right 90", "drive 0.3 m left\nturn right 90 deg"),
         ("2 metres forward, then one further metre", "drive 2 m\ndrive 1 m"),
         ("keep rolling ahead for eight seconds and then quit", "drive 8 s"),
