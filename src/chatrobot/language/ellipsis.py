@@ -240,10 +240,9 @@ def _goes_on_in_unit(frame: Frame, value: float, state: State) -> bool:
     )
     along = frame.direction in ("forward", "back") or (frame.verb in (*GO, "return") and not frame.direction)
     before = state.length.number if state.length is not None else 0.0
-    slid = state.last == "drive" and state.direction in SIDES and frame.direction in SIDES and not frame.verb
-    sideways |= slid and math.isclose(
-        value * (state.unit_m or 0.0), before
-    )  # `40 cm to the left, 40 to the right`
+    slid = bool(state.steps) and state.last == "drive" and state.direction in SIDES
+    goes_on = slid and frame.direction in SIDES and not frame.verb  # `40 cm to the left, 40 to the right`
+    sideways |= goes_on and math.isclose(value * (state.unit_m or 0.0), before)
     most = before if frame.verb == "return" else 5 * before
     return (on or sideways or along) and before / 10 <= value * (state.unit_m or 0.0) <= most
 
