@@ -62,7 +62,7 @@ from chatrobot.language.starting import (
 )
 from chatrobot.language.talk import hardly_ordered, may_be_talk, not_ordered
 from chatrobot.language.to_taught import to_taught
-from chatrobot.language.told_twice import without_restated
+from chatrobot.language.told_twice import without_repetition
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
@@ -120,7 +120,7 @@ class OfflineInterpreter:
         passed = self._passed_over(text, meant.plan, language, context)
         if passed:
             return asked_back(Unclear("unclear_motion", passed), language)
-        once = without_restated(normalise(text), meant.plan) if meant.plan is not None else None
+        once = without_repetition(normalise(text), meant.plan) if meant.plan is not None else None
         if once is not None:
             return proposed(planned([*once.steps], language), language) or meant
         is_doubted = (wish is not None and not wish.is_sure) or hardly_ordered(said, language)

@@ -23,7 +23,7 @@ _ASLANT = 0.1
 """Of the sine of twice the angle between a drive and the robot's axis: with a greater one it goes aslant."""
 
 
-def without_restated(plain: str, plan: Plan) -> Plan | None:
+def without_repetition(plain: str, plan: Plan) -> Plan | None:
     """The plan of a normalised text without steps that only tell once more what one beside them does; None for none."""
     steps, kept = plan.steps, [*plan.steps[:1]]
     atoms = atoms_said(plain) if any(itertools.starmap(_may_restate, itertools.pairwise(steps))) else []
