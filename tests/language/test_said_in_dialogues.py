@@ -11,6 +11,7 @@ LEGS = "forward 20 cm, right 45, forward 60 cm"
 HOPS = ["drive 0.2 m", "wait 1 s"]
 THREE_QUARTERS = "arc left 270 deg radius 1 m"
 BACK_TO_SECOND = "drive 0.5 m back\nturn right 90 deg"
+ARC_RIGHT = "arc right 180 deg radius 1 m"
 THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
 
 
@@ -117,6 +118,45 @@ THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
             "drive 1 m\nturn right 90 deg\ndrive 1 m\nturn right 90 deg",
         ),
         (("forward 1 m", "turn left 90", "look straight ahead again like at the beginning"), "face 0 deg"),
+        # a measure of before, beside a motion of its own
+        (("half a circle to the left, radius 1 m", "now half a circle to the right, same size"), ARC_RIGHT),
+        (("往左走半个圆，半径一米", "往右走半个圆，大小一样"), ARC_RIGHT),
+        (
+            ("drive 60 cm diagonally to the front left", "now the front right, same distance"),
+            "drive 0.6 m toward -45 deg",
+        ),
+        (
+            ("往左前方斜着走60厘米", "原路返回", "再往右前方45度来一次，距离一样"),
+            "drive 0.6 m toward -45 deg",
+        ),
+        (("forward 50 cm", "turn right 30", "walk the same distance again"), "drive 0.5 m"),
+        (("slide right 40 cm", "now slide left"), "drive 0.4 m left"),
+        (("往右平移40厘米", "再往左平移"), "drive 0.4 m left"),
+        (("drive 2 m at 0.2 m/s", "again, but with 0.4"), "drive 2 m at 0.4 m/s"),
+        (("turn right 30", "15 degrees more to the same side"), "turn right 15 deg"),
+        (("turn left 60", "I meant 90, not 60"), "turn left 30 deg"),
+        (("turn left 90, then 50 cm forward", "undo the second step"), "drive 0.5 m back"),
+        (("forward 1 m, turn around, forward 50 cm", "could you do the last step again?"), "drive 0.5 m"),
+        (("circle to the left", "cute. now a bigger one, 1 m radius"), "arc left 360 deg radius 1 m"),
+        (("drive 2 m at 0.2 m/s", "do it again, but with the double speed"), "drive 2 m at 0.4 m/s"),
+        (("back 40 cm", "and now forwards"), "drive 0.4 m"),
+        (
+            ("forward 40 cm, left", "once more and then back to the start"),
+            "drive 0.4 m\nturn left 90 deg\ngo to 0 0",
+        ),
+        (("先往前走40厘米，再往左平移30厘米", "第二步请你再做一遍哈", "第一步也再做一遍嘛"), "drive 0.4 m"),
+        (
+            ("30 cm nach rechts, ohne zu drehen", "Das reicht noch nicht, nochmal 10 cm weiter"),
+            "drive 0.1 m right",
+        ),
+        (
+            (
+                "1 m vor und 90 Grad links",
+                "Den ersten Schritt nochmal",
+                "Und den zweiten auch nochmal, aber andersrum",
+            ),
+            "turn right 90 deg",
+        ),
         # praise before an order tells nothing, and calls nobody
         (("forward 1 m", "awesome, turn right"), "turn right 90 deg"),
         (("forward 1 m", "Well done! Now left"), "turn left 90 deg"),

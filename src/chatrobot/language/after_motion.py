@@ -7,7 +7,7 @@ a motion; `means` what is said of one kind of motion, so that it is read as if n
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
 
@@ -30,8 +30,10 @@ from chatrobot.plan.steps import Arc, Drive, Go, Plan, Step, Turn, Wait
 _SHOWN = 60
 _OTHERS = "{others}"
 """Stands in a reading for how many steps were done beside one."""
-_SPEED = "{speed_mps}"
-"""Stands in a reading for the speed of the last motion."""
+_FIGURES = ("speed_mps", "radius_m", "distance_m", "duration_s")
+"""Stand in a reading, in braces: the speed of the last motion, and the other figures of the last that has one."""
+_SIDE = "{side}"
+"""Stands in a reading for the side to which the last turn or curve went."""
 _PACES = frozenset({"speed", "time", "rate"})
 _SIZES = frozenset({"length", "angle", "turns", "number", "time", "count", "speed"})
 
@@ -66,15 +68,24 @@ def _filled(said: str, dialogue: Dialogue) -> str:
     """What a rule says, with the figures of what was done in it.
 
     Raises:
-        Unclear: nothing was done at a speed that could be told.
+        Unclear: nothing was done that has such a figure.
     """
-    if _SPEED in said:
-        speeds = (getattr(step, "speed_mps", None) for step in _steps(dialogue.last_motion))
-        speed_mps = next(filter(None, speeds), None)
-        if speed_mps is None:
-            raise Unclear("nothing_before", said[:_SHOWN])
-        said = said.replace(_SPEED, f"{speed_mps:g}")
+    for name in _FIGURES:
+        if f"{{{name}}}" in said:
+            turns = [dialogue.last_motion] if name == "speed_mps" else reversed(dialogue.turns)
+            said = said.replace(f"{{{name}}}", f"{_last(turns, name, said):g}")
+    if _SIDE in said:
+        said = said.replace(_SIDE, "left" if _last(reversed(dialogue.turns), "left", said) else "right")
     return said.replace(_OTHERS, str(sum(len(entry.way or ()) for entry in dialogue.ledger.done) - 1))
+
+
+def _last(turns: Iterable[TurnRecord | None], name: str, said: str) -> float:
+    """What the last step that has it has by that name."""
+    found = (getattr(step, name, None) for turn in turns for step in reversed(_steps(turn)))
+    value = next((value for value in found if value is not None), None)
+    if value is None:
+        raise Unclear("nothing_before", said[:_SHOWN])
+    return float(value)
 
 
 def _of_total(plain: str, language: str, dialogue: Dialogue) -> str:
@@ -238,6 +249,15 @@ def _has_moved(dialogue: Dialogue) -> bool:
     return dialogue.last_motion is not None
 
 
+def _has_been(kind: type[Step]) -> Callable[[Dialogue], bool]:
+    """Whether any turn had a motion of that kind."""
+
+    def is_so(dialogue: Dialogue) -> bool:
+        return any(isinstance(step, kind) for turn in dialogue.turns for step in _steps(turn))
+
+    return is_so
+
+
 def _was_stopped(dialogue: Dialogue) -> bool:
     """Whether the last motion came to no end: its parts may be those that were told, or those that were driven."""
     last = dialogue.last_motion
@@ -274,6 +294,7 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "about": _is_about,
     "drive": _only(Drive),
     "straight": _is_straight,
+    "backed": lambda dialogue: _is_straight(dialogue) and _ends_askew(dialogue),
     "place": _only(Go),
     "turn": _only(Turn),
     "curve": _only(Arc),
@@ -291,12 +312,15 @@ _AFTER: Mapping[str, Callable[[Dialogue], bool]] = {
     "off_line": lambda dialogue: _not_straight(dialogue) or _is_slide(dialogue),
     "turned": _has_turned,
     "eight": lambda dialogue: len(_steps(dialogue.last_motion)) > 1 and _only(Arc)(dialogue),
+    "pair": lambda dialogue: len(_steps(dialogue.last_motion)) == 2,
     "sequence": lambda dialogue: len(_steps(dialogue.last_motion)) > 1,
     "aside": _looks_aside,
     "just": lambda dialogue: dialogue.turns[-1].plan is not None,
     "turns": lambda dialogue: len(dialogue.ledger.done) > 1,
     "own": _was_ordered,
     "moved": _has_moved,
+    "curved": _has_been(Arc),
+    "driven": _has_been(Drive),
     "stopped": _was_stopped,
 }
 

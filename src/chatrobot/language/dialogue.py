@@ -321,6 +321,8 @@ def _whole(frames: Sequence[Frame]) -> Frame | None:
             return None
         if any(name in whole.q for name in frame.q):
             return None
+        if "to_start" in frame.flags and frame.joined in ("and", "then") and _is_only_again(whole):
+            return None  # `once more, and then home`
         if (
             "to_start" in frame.flags
             and frame.verb == "go"

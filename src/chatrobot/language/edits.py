@@ -17,6 +17,7 @@ from chatrobot.language.inverse import flipped, inverse, is_sideways, leaves_of
 from chatrobot.language.last_motion import (
     motion_meant,
     said_unit_m,
+    turned_rad,
     unit_driven_m,
     within_unit_before,
 )
@@ -28,6 +29,9 @@ from chatrobot.language.shape_sides import rest_of_shape
 from chatrobot.language.tokens import Atom, quantity
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Arc, Drive, Step, Turn
+
+_BACKWARDS = frozenset({"backward", "backwards"})
+"""Words that name the way of the robot, and never the way that it came."""
 
 
 def _to_edit(edit: Edit, dialogue: Dialogue) -> TurnRecord | None:
@@ -58,13 +62,13 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
         edit.way, edit.returns = aslant[edit.way], True
     elif edit.way.startswith("back_") and "same_amount" in edit.flags:
         raise Unclear("which_way")
-    elif (
-        edit.way == "back"
-        and "same_amount" in edit.flags
-        and any(map(is_sideways, steps))
-        and not _says_only_back(atoms)
-    ):
-        raise Unclear("which_way")  # `right 1 m`, then `back up as far`: where it came from, or backwards?
+    elif edit.way == "back" and "same_amount" in edit.flags and any(map(is_sideways, steps)):
+        said = {text.split()[-1] for atom in atoms if (text := atom.text)}
+        if said & _BACKWARDS and len(steps) == 1 and not edit.amounts:
+            return _resized_on_way(edit, steps[0])
+        # `right 1 m`, then `back up as far`: where it came from, or backwards?
+        if not _says_only_back(atoms):
+            raise Unclear("which_way")
     if edit.returns and not _came_from(steps, edit.way):
         if "same_amount" not in edit.flags or any(is_chinese(atom.text) for atom in atoms):
             return None
@@ -85,7 +89,16 @@ def edited(atoms: Sequence[Atom], dialogue: Dialogue) -> list[Step] | None:
             return None
         unit_m = said_unit_m(last.text) or 0.0
         edit.amounts = [within_unit_before(amount, steps[-1], unit_m, 1.0) for amount in edit.amounts]
-    return (_applied(edit, steps) or []) * edit.times or None
+    whole_turn = _rest_of_turn(steps[-1], dialogue) if "complete" in edit.flags and len(steps) == 1 else None
+    return whole_turn or (_applied(edit, steps) or []) * edit.times or None
+
+
+def _rest_of_turn(step: Step, dialogue: Dialogue) -> list[Step] | None:
+    """What is missing to a full turn, after turns on the spot one after another."""
+    if not isinstance(step, Turn):
+        return None
+    missing = 2.0 * math.pi - turned_rad(dialogue, step.left)
+    return [dataclasses.replace(step, angle_rad=missing)] if 0.0 < missing < 2.0 * math.pi else None
 
 
 def _says_only_back(atoms: Sequence[Atom]) -> bool:

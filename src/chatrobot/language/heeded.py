@@ -81,7 +81,11 @@ def check_heeded(
     Raises:
         Unclear: naming it.
     """
-    if any(atom.kind in _TAKEN_BACK or (atom.kind, atom.value) == ("flag", "instead") for atom in atoms):
+    if any(atom.kind in _TAKEN_BACK for atom in atoms):
+        return
+    instead = [i for i, atom in enumerate(atoms) if (atom.kind, atom.value) == ("flag", "instead")]
+    if instead:
+        _check_amounts(atoms, steps, read, instead[-1])
         return
     if any(isinstance(a, Go) and a.place and a == b for a, b in itertools.pairwise(steps)):
         # `to the dock and the desk twice`: it stands there already
@@ -91,8 +95,15 @@ def check_heeded(
     _check_no_turn(atoms, steps)
     _check_sides(atoms, steps)
     _check_flags(atoms, steps, read, follows=follows)
+    _check_amounts(atoms, steps, read)
+
+
+def _check_amounts(
+    atoms: Sequence[Atom], steps: Sequence[Step], read: Callable[[list[Atom]], Sequence[Step]], start: int = 0
+) -> None:
+    """Ask back where an amount or a direction from `start` on may be another for nothing."""
     asked = [(i, changed) for i, atom in enumerate(atoms) if (changed := _changed(atom, atoms)) is not None]
-    asked = [(i, changed) for i, changed in asked if not _is_adverb(atoms, i)]
+    asked = [(i, changed) for i, changed in asked if i >= start and not _is_adverb(atoms, i)]
     if len(asked) > _LONG:
         asked = _not_seen_nearby(asked, atoms, read)
     for i, changed in asked:
@@ -154,14 +165,15 @@ def _check_each(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
 
 
 def _check_no_turn(atoms: Sequence[Atom], steps: Sequence[Step]) -> None:
-    """Ask back where it turns though it is said not to: the motion before once more, or 原地别转半圈."""
-    denied = next((atom for atom in atoms if (atom.kind, atom.value) == ("flag", "no_turn")), None)
+    """Ask back where it turns or bends though it is said not to: 原地别转半圈, `diagonal, forwards and right`."""
+    denied = next((a for a in atoms if a.kind == "flag" and a.value in ("no_turn", "diagonal")), None)
     told = any(
         atom.kind in ("verb", "dir", "rot", "shape") or (atom.kind == "q" and atom.value not in _TURNED)
         for atom in atoms
     )
     bends = any(isinstance(step, Arc) for step in steps)
-    if denied is not None and (bends or (not told and any(isinstance(step, Turn) for step in steps))):
+    turns = any(isinstance(step, Turn) for step in steps) and not told
+    if denied is not None and (bends or (turns and denied.value == "no_turn")):
         raise Unclear("unclear_motion", denied.text)
 
 

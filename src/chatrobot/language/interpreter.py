@@ -66,7 +66,7 @@ from chatrobot.language.told_twice import without_repetition
 from chatrobot.language.tutorial_form import read_twists
 from chatrobot.language.unclear import OF_AN_ORDER, Unclear
 from chatrobot.language.unfinished import check_consistent, check_unconditional, is_choice
-from chatrobot.language.waiting import amended, of_held, of_offered, of_taught
+from chatrobot.language.waiting import amended, of_held, of_offered, of_taught, refers_past_question
 from chatrobot.language.where_to import where_to
 from chatrobot.language.wishes import of_wish
 from chatrobot.plan.steps import Plan, Step, Wait
@@ -112,19 +112,19 @@ class OfflineInterpreter:
             return self._remarked(whole, language, context) or asked_back(problem, language)
         said = to_taught(said, language, context)
         text = with_spoken_place(as_ordered(said, language, context.dialogue), language, context)
-        meant = self._of_waiting(text, language, context) or self._meant(text, language, context)
+        waiting = self._of_waiting(text, language, context)
+        meant = waiting or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        reason = not_ordered(text, language, meant.plan, context.dialogue) if offers else ""
-        if reason:
+        if offers and (reason := not_ordered(text, language, meant.plan, context.dialogue)):
             return asked_back(Unclear(reason, text), language)
-        passed = self._passed_over(text, meant.plan, language, context)
-        if passed:
+        if passed := self._passed_over(text, meant.plan, language, context):
             return asked_back(Unclear("unclear_motion", passed), language)
         once = without_repetition(normalise(text), meant.plan) if meant.plan is not None else None
         if once is not None:
             return proposed(planned([*once.steps], language), language) or meant
         is_doubted = (wish is not None and not wish.is_sure) or hardly_ordered(said, language)
-        if is_doubted or may_be_talk(meant, text, language, context):
+        skips = waiting is None and refers_past_question(meant.plan, text, language, context, self._meant)
+        if is_doubted or skips or may_be_talk(meant, text, language, context):
             return proposed(meant, language) or meant
         return meant
 

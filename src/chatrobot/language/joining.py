@@ -230,7 +230,8 @@ def _belongs(last: Frame, first: Frame) -> bool:
             last.has_extent and first.verb and "until" not in first.flags and first.has_extent and last.verb
         )
     if not first.moves:
-        return not (set(first.q) & set(EXTENTS) and last.has_extent and not _adds_time(last, first))
+        adds = _adds_time(last, first) or _adds_length(last, first)
+        return not (set(first.q) & set(EXTENTS) and last.has_extent and not adds)
     if not last.moves:
         return True
     if first.verb == last.verb and first.q and set(first.q) <= MANNER and not (first.direction or first.rot):
@@ -265,6 +266,11 @@ def _is_laps(frame: Frame) -> bool:
 
 def _adds_time(last: Frame, first: Frame) -> bool:
     return set(first.q) & set(EXTENTS) == {"time"} and "time" not in last.q
+
+
+def _adds_length(last: Frame, first: Frame) -> bool:
+    """`45 degrees to the right of straight ahead, 1 m`: how far to go on a bearing."""
+    return "bearing" in last.flags and "length" not in last.q and set(first.q) == {"length"}
 
 
 def _direction_follows(last: Frame, first: Frame) -> bool:

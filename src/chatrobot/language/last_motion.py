@@ -91,6 +91,18 @@ def motion_meant(dialogue: Dialogue) -> TurnRecord | None:
     return undone[0]
 
 
+def turned_rad(dialogue: Dialogue, left: bool) -> float:
+    """How far the unbroken run of turns on the spot has turned to that side, by their plans."""
+    turned = 0.0
+    for turn in reversed([turn for turn in dialogue.turns if turn.plan is not None]):
+        steps = [step for step in steps_of(turn) if not isinstance(step, Wait)]
+        if not all(isinstance(step, Turn) for step in steps):
+            break
+        turned += sum(step.angle_rad or 0.0 for step in steps if isinstance(step, Turn) and step.left == left)
+        turned -= sum(step.angle_rad or 0.0 for step in steps if isinstance(step, Turn) and step.left != left)
+    return turned
+
+
 def speeds_said(dialogue: Dialogue) -> tuple[float | None, float | None]:
     """The speed, m/s, and the rate, rad/s, that were said of the last motion; None where it had the usual one."""
     last = dialogue.last_motion

@@ -155,4 +155,5 @@ def with_breaks(text: str, language: str) -> str:
 
 def plain_text(said: str) -> str:
     """What was `said` in an earlier turn, as this package reads it."""
-    return rephrased(normalise(said), "zh" if has_chinese(said) else "en")
+    language = "zh" if has_chinese(said) else "en"
+    return rephrased(in_full(normalise(said), language), language)

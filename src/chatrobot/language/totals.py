@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from chatrobot.core.geometry import Pose
+from chatrobot.core.geometry import ORIGIN, Pose
 from chatrobot.language.context import Context
 from chatrobot.language.frames import GO, Frame
-from chatrobot.language.last_motion import steps_of, unit_driven_m
+from chatrobot.language.last_motion import motion_meant, steps_of, turned_rad, unit_driven_m
 from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.manner import Pace
 from chatrobot.language.meant import is_correction
@@ -25,22 +25,23 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     Raises:
         Unclear: where the last motion was none that a total fits.
     """
-    last = context.dialogue.last_motion
-    if last is None:
+    last, meant = context.dialogue.last_motion, motion_meant(context.dialogue)
+    if last is None or meant is None:
         raise Unclear("nothing_before", whole.text)
-    ordered = _ordered_first(context.dialogue.turns, last)
+    is_undone = meant is not last  # `undo that`, `I meant 2 m`: nothing is left of it
+    ordered = meant if is_undone else _ordered_first(context.dialogue.turns, last)
     steps = steps_of(ordered)
-    moved = last.end_pose.relative_to(ordered.start_pose)
+    moved = ORIGIN if is_undone else last.end_pose.relative_to(ordered.start_pose)
     step = steps[-1]
     said = set(whole.q)
     if said == {"times"} and not whole.moves:
         return _rounds_missing(whole, steps, context)
-    whole = _with_unit(_half_of(whole, step), last, step)
+    whole = _with_unit(_half_of(whole, step), meant, step)
     if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
         done = math.hypot(moved.x_m, moved.y_m)
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
-        if "number" in said and not done / 10 <= whole.q["length"].number <= 10 * done:
+        if "number" in said and not is_undone and not done / 10 <= whole.q["length"].number <= 10 * done:
             raise Unclear("no_unit", whole.text)  # `too slow, 0.2`: hardly 0.2 cm, after 30 cm
         missing = _missing(whole, whole.q["length"].number, done)
         if missing <= 0.0 and whole.verb in GO:
@@ -58,7 +59,10 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     if angle and isinstance(step, Turn) and len(steps) == 1:
         # `no, right`: it has turned to the other side since.
         is_back = is_correction(last) and (moved.yaw_rad > 0.0) != step.left
-        missing = _missing(whole, angle.number, abs(moved.yaw_rad))
+        done = abs(moved.yaw_rad)
+        if "total" in whole.flags and not is_undone:  # `30`, `30 more`, `make it 90 in total`
+            done = max(done, turned_rad(context.dialogue, step.left))
+        missing = _missing(whole, angle.number, done)
         if abs(missing) < NEAR_RAD:
             raise Unclear("contradiction", whole.text)
         return [Turn(abs(missing), left=(step.left != is_back) == (missing > 0))]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from chatrobot.language.acts import agreeing
+from chatrobot.language.acts import Read, agreeing, read_acts
 from chatrobot.language.answers import with_manner
 from chatrobot.language.consent import after_consent, opens_with_but
 from chatrobot.language.context import Context
@@ -23,7 +23,8 @@ from chatrobot.language.held import (
     is_taken_back,
     may_be_change,
 )
-from chatrobot.language.interpretation import Interpretation, asked_back, planned, taught
+from chatrobot.language.interpretation import Interpretation, LanguageCode, asked_back, planned, taught
+from chatrobot.language.ledger import TurnRecord
 from chatrobot.language.normalise import normalise
 from chatrobot.language.phrases import say
 from chatrobot.language.proposals import offer, proposed
@@ -34,10 +35,14 @@ from chatrobot.language.tokens import SILENT
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.steps import Plan
 
-Read = Callable[[str, Context], Interpretation]
+Meant = Callable[[str, Context], Interpretation]
+
+_MOTION = frozenset({"DIR", "ROT", "SHAPE", "FULLTURN"})
+_SURELY_ORDERED = 2.5
+"""Log odds from which a clause that nobody understood was an order, and no remark with a word of motion in it."""
 
 
-def of_held(text: str, reading: Reading, meant: Read, interpreted: Read) -> Interpretation | None:
+def of_held(text: str, reading: Reading, meant: Meant, interpreted: Meant) -> Interpretation | None:
     """What a text says of the plan that waits, or beside it; None where it is a new order, or not understood.
 
     Args:
@@ -70,7 +75,7 @@ def of_held(text: str, reading: Reading, meant: Read, interpreted: Read) -> Inte
     return found
 
 
-def of_offered(text: str, reading: Reading, meant: Read) -> Interpretation | None:
+def of_offered(text: str, reading: Reading, meant: Meant) -> Interpretation | None:
     """The plan that was asked about, with what a text changes of it; None where it changes nothing.
 
     It is done after a yes, after a `no` that says otherwise what was refused, and where the text that was asked about
@@ -129,7 +134,7 @@ def _on_that_side(offered: Plan, side: str, reading: Reading) -> Interpretation 
     return proposed(planned(steps, reading.language), reading.language) if steps is not None else None
 
 
-def of_taught(text: str, reading: Reading, meant: Read) -> Interpretation | None:
+def of_taught(text: str, reading: Reading, meant: Meant) -> Interpretation | None:
     """The word taught in the turn before with what a text changes of it: `no wait, make it half a metre`; else None."""
     turns, language = reading.context.dialogue.turns, reading.language
     said = rephrased(normalise(turns[-1].text), language) if turns and turns[-1].plan is None else ""
@@ -148,7 +153,7 @@ def _corrects(text: str, language: str) -> bool:
     return form(language, "held", "instead").search(rephrased(normalise(text), language)) is not None
 
 
-def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: bool = True) -> Plan | None:
+def amended(said: str, plan: Plan, reading: Reading, meant: Meant, *, is_agreed: bool = True) -> Plan | None:
     """The plan with what is `said` of it; None where that changes nothing of it, or is an order of its own.
 
     Args:
@@ -162,7 +167,10 @@ def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: 
     by_motion = is_agreed and opens_with_but(said)
     if not (is_no_order(plain, reading) or by_motion or (is_agreed and adds(plain, reading))):
         return None
+    # `that one again but to the right` is said of the plan, and of nothing that was done before it.
     own = _without_waiting(reading.context)
+    asked = TurnRecord(reading.context.dialogue.pending, "completed", plan)
+    own = replace(own, dialogue=replace(own.dialogue, turns=(*own.dialogue.turns, asked)))
 
     def read_anew(part: str) -> Interpretation:
         return meant(part, own)
@@ -174,6 +182,31 @@ def amended(said: str, plan: Plan, reading: Reading, meant: Read, *, is_agreed: 
     if steps is None and by_motion:
         steps = changed_by_motion(plain, plan, reading, read_anew)
     return Plan(tuple(steps)) if steps is not None else None
+
+
+def refers_past_question(
+    plan: Plan | None,
+    text: str,
+    language: LanguageCode,
+    context: Context,
+    meant: Callable[[str, LanguageCode, Context], Interpretation],
+) -> bool:
+    """Whether `text` is done with a motion from before an order that was asked back about: `again`, after “how far?”.
+
+    It may as well be meant of that order, which was not done.
+    """
+    before = context.dialogue
+    asked = read_acts(normalise(before.pending)) if before.pending else []
+    is_asked = before.offered is not None or any(map(_is_motion, asked))
+    was_unclear = bool(before.turns) and before.turns[-1].outcome == "unclear"
+    if plan is None or not (is_asked and was_unclear) or before.last_motion is None:
+        return False
+    return meant(text, language, replace(context, dialogue=replace(before, turns=()))).plan != plan
+
+
+def _is_motion(read: Read) -> bool:
+    """Whether a clause surely ordered a motion of its own: no undo, and no remark."""
+    return read.log_odds >= _SURELY_ORDERED and any(sign.label in _MOTION for sign in read.clause.signs)
 
 
 def _without_waiting(context: Context) -> Context:
