@@ -140,6 +140,7 @@ THERE = "go 60 cm back, wait five seconds, come forward 60 cm"
         (("circle to the left", "cute. now a bigger one, 1 m radius"), "arc left 360 deg radius 1 m"),
         (("drive 2 m at 0.2 m/s", "do it again, but with the double speed"), "drive 2 m at 0.4 m/s"),
         (("back 40 cm", "and now forwards"), "drive 0.4 m"),
+        (("turn right 90", "turn back 45 degrees"), "turn left 45 deg"),
         (
             ("forward 40 cm, left", "once more and then back to the start"),
             "drive 0.4 m\nturn left 90 deg\ngo to 0 0",

@@ -122,11 +122,7 @@ def _last_two(before: _Before) -> tuple[Step, ...]:
 
 def _again(said: Said, before: _Before) -> list[Step] | None:
     """`Again, but backwards and 10 cm shorter`, `one more, the radius 10 cm larger`, `twice, to the left, sideways`."""
-    if (
-        not said.has("again", "last")
-        or said.factors
-        or said.has(*SUMS, "weak", *HEADINGS, "oops", "want", "short")
-    ):
+    if not said.has("again", "last") or said.factors or said.has(*SUMS, "weak", *HEADINGS, "oops", "want"):
         return None
     steps = before.last
     if before.is_correction or len(set(steps)) > 1 or not said.only("delta_more", "delta_less", "times"):
