@@ -80,7 +80,11 @@ def _filled(said: str, dialogue: Dialogue) -> str:
 
 
 def _last(turns: Iterable[TurnRecord | None], name: str, said: str) -> float:
-    """What the last step that has it has by that name."""
+    """The value of that field in the last step that has one.
+
+    Raises:
+        Unclear: no step has one.
+    """
     found = (getattr(step, name, None) for turn in turns for step in reversed(_steps(turn)))
     value = next((value for value in found if value is not None), None)
     if value is None:

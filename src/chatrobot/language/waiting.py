@@ -38,6 +38,7 @@ from chatrobot.plan.steps import Plan
 Meant = Callable[[str, Context], Interpretation]
 
 _MOTION = frozenset({"DIR", "ROT", "SHAPE", "FULLTURN"})
+"""Labels of words that only an order of its own has: `undo` and `again` are verbs and flags."""
 _SURELY_ORDERED = 2.5
 """Log odds from which a clause that nobody understood was an order, and no remark with a word of motion in it."""
 
