@@ -9,6 +9,7 @@ from chatrobot.language.context import Context, Dialogue, Place, RobotState
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.interpreter import OfflineInterpreter
 from chatrobot.language.ledger import TurnRecord
+from chatrobot.plan.text import format_plan
 from tests.language.ideal_motion import Track, judge
 from tests.language.profiles import MECANUM
 
@@ -112,3 +113,9 @@ def run_item(item: Mapping[str, Any]) -> tuple[Verdict, str]:
             "abstained" if not talk.track.moved or wrong else "correct"
         ), f"{meant.outcome}: {meant.reply}"
     return ("wrong" if wrong else "correct"), why + (f" | {meant.plan}" if wrong else "")
+
+
+def plan_of(*turns: str) -> str:
+    """What the last turn drives, in the plan language; its reply, where it drives nothing."""
+    meant = conversation(*turns[:-1]).say(turns[-1])
+    return format_plan(meant.plan) if meant.plan is not None else meant.reply

@@ -16,7 +16,6 @@ SQUARE = "走一个边长40cm的正方形,往左拐"
     "turns",
     [
         (FOUR_STEPS, "step 3 once more", "and step 4 the other way"),
-        ("forward 2.5 m", "turn right", "and now the same distance as in the very first order"),
         (CIRCLE, "now another one the same way round, but with twice the radius"),
         ("another two metres", "last one in reverse now, same pace"),
         ("slide left 30 cm", "to the right, twice"),

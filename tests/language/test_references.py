@@ -115,7 +115,7 @@ def test_a_side_and_a_size_change_the_motion_before_together(said: str, plan: st
         ("前进1m，左转60°，再前进0.5m / 从当前位姿再跑一遍，第二步改成右转60°", 3),
         ("drive 2 m at 0.2 m/s / That was rather slow. Even I am quicker, and I have a stick.", 0),
         ("strafe right 40 cm / And same amount diagonally also, front-left at 45 deg", 0),
-        ("turn left 90 and forward 1 m / undo the drive", 0),
+        ("turn left 90 and forward 1 m / undo the drive", 1),
         ("go forward 1 m / go forward 2 m / undo the second one", 0),
         ("slide left 30 cm, turn right 30, slide left 30 cm / again but with the turn the other way", 0),
         ("forward 1 m / the same to the left and to the right", 0),

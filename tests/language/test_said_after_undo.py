@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from chatrobot.plan.text import format_plan
-from tests.language.dialogue_runner import conversation
-
-
-def _plan_of(*turns: str) -> str:
-    """What the last turn drives, in the plan language; its reply, where it drives nothing."""
-    meant = conversation(*turns[:-1]).say(turns[-1])
-    return format_plan(meant.plan) if meant.plan is not None else meant.reply
+from tests.language.dialogue_runner import conversation, plan_of
 
 
 @pytest.mark.parametrize(
@@ -50,7 +43,7 @@ def _plan_of(*turns: str) -> str:
     ],
 )
 def test_what_was_undone_is_put_right_from_where_it_began(turns: tuple[str, ...], plan: str) -> None:
-    assert _plan_of(*turns) == plan
+    assert plan_of(*turns) == plan
 
 
 @pytest.mark.parametrize(
@@ -83,9 +76,9 @@ def test_a_motion_before_an_order_that_was_asked_about_is_repeated_only_after_a_
 def test_a_remark_an_answer_or_an_order_of_its_own_is_not_asked_about(
     turns: tuple[str, ...], plan: str
 ) -> None:
-    assert _plan_of(*turns) == plan
+    assert plan_of(*turns) == plan
 
 
 def test_a_measure_that_is_changed_beside_another_is_not_lost() -> None:
     turns = "顺时针走个圆，半径40厘米", "再来一次，这回逆时针，半径改成60厘米"
-    assert _plan_of(*turns) == "arc left 360 deg radius 0.6 m"
+    assert plan_of(*turns) == "arc left 360 deg radius 0.6 m"

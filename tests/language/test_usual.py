@@ -94,8 +94,8 @@ def test_what_means_nothing_by_itself_is_done_once_it_was_taught(taught: str, or
     assert done(taught, "forward 1 m", order) == plan
 
 
-def test_a_correction_of_another_kind_of_motion_is_no_start_of_a_total() -> None:
-    assert done("turn left 90", "no, I meant forward 1 m", "no, 2 m") == "unclear"
+def test_a_correction_of_another_kind_of_motion_is_put_right_by_what_it_drove() -> None:
+    assert done("turn left 90", "no, I meant forward 1 m", "no, 2 m") == "drive 1 m"
 
 
 def test_the_usual_speed_is_set_back_by_a_word() -> None:

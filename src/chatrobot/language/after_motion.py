@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import cache
 
 from chatrobot.core.geometry import wrap_angle
+from chatrobot.language.antecedents import with_antecedent
 from chatrobot.language.context import Context, Dialogue
 from chatrobot.language.data_files import LANGUAGES, load_table
 from chatrobot.language.forms import read_definition
@@ -49,6 +50,8 @@ def as_meant_after(plain: str, language: str, context: Context) -> tuple[str, Co
         context = replace(context, dialogue=(dialogue := replace(dialogue, pending="")))
     if dialogue.held is not None or dialogue.offered is not None or not dialogue.turns:
         return plain, context
+    plain, context = with_antecedent(plain, language, context)
+    dialogue = context.dialogue
     for name, is_so in _AFTER.items():
         for rule in _rules(language, "after", name).that_may_match(plain):
             if rule.is_in(plain) and is_so(dialogue):
@@ -122,7 +125,7 @@ def _of_kind(kind: str, plain: str, dialogue: Dialogue) -> Dialogue:
         Unclear: there is none before the last motion, or it was one of several, or something was undone since.
     """
     last = dialogue.last_motion
-    if last is None or last.walk is not None or last.plan is None:
+    if last is None or last.plan is None or (last.walk is not None and _MEANT[kind](last, plain)):
         return dialogue
     for at in reversed(range(len(dialogue.turns))):
         turn = dialogue.turns[at]

@@ -137,13 +137,14 @@ def changed(before: Sequence[Step], whole: Frame, pace: Pace) -> list[Step]:
     count = whole.q.get("times")
     if count is not None and count.number == 1.0 and len(set(steps)) == 1:
         return steps[:1]  # `the other way once`, of what was done twice
-    if count is not None:
-        return steps * whole_number(count.number, count.text)
+    times = whole_number(count.number, count.text) if count is not None else 1
     sizes = [whole.q[name] for name in ("length", "angle", "turns", "time") if name in whole.q]
+    if count is not None and not sizes:
+        return steps * times
     out = resized(steps, Edit(amounts=sizes)) if "more" not in whole.flags or not sizes else None
     if out is None:
         raise Unclear("nothing_before", whole.text)
-    return out
+    return out * times
 
 
 def _factors(steps: Sequence[Step], whole: Frame, factor: float) -> Factors:

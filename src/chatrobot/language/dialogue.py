@@ -215,13 +215,11 @@ def _walked(whole: Frame, frames: Sequence[Frame], context: Context, profile: Ro
     if whole.verb == "undo" and "same_way" in whole.flags:
         return all_taken_back(context, profile)
     if whole.verb == "undo":
-        last, named = context.dialogue.last_motion, [each for each in frames[1:] if each.verb in GO]
+        last, named = context.dialogue.last_motion, {each.verb for each in frames[1:]}
         if whole.shape and last is not None and whole.shape not in shapes_said(last.text):
             raise Unclear("nothing_before", whole.text)  # `undo the square`, after a circle
-        if named and last is not None and (len(steps_of(last)) > 1 or isinstance(steps_of(last)[0], Turn)):
-            # `undo the drive`, of several steps, or of a turn
-            raise Unclear("unclear_motion", f"{whole.text} {named[0].text}")
-        return undone(whole, context, profile, turning=any(frame.verb == "turn" for frame in frames[1:]))
+        kind = Turn if "turn" in named else Drive if named & GO else None
+        return undone(whole, context, profile, kind=kind)
     if {"redo", "restore"} & whole.flags:
         again = redone(context, profile)
         if again and (whole.moves or set(whole.q) - PACES):

@@ -115,7 +115,8 @@ class OfflineInterpreter:
         waiting = self._of_waiting(text, language, context)
         meant = waiting or self._meant(text, language, context)
         offers = meant.plan is not None or (meant.proposal is not None and meant.code != "held")
-        if offers and (reason := not_ordered(text, language, meant.plan, context.dialogue)):
+        reason = not_ordered(text, language, meant.plan, context.dialogue)
+        if reason and (offers or (reason == "taken_back" and meant.outcome == "unclear")):
             return asked_back(Unclear(reason, text), language)
         if passed := self._passed_over(text, meant.plan, language, context):
             return asked_back(Unclear("unclear_motion", passed), language)
@@ -170,7 +171,6 @@ class OfflineInterpreter:
         if change is None:
             return None
         language, change = in_known_words(change, context)
-
         reading = Reading(language, context, self._profile)
         with contextlib.suppress(Unclear):
             return amended(change, plan, reading, lambda part, own: self._meant(part, language, own))

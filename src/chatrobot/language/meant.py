@@ -39,6 +39,8 @@ def instead(
         return None
     for frame in frames:
         frame.flags.discard(MEANT)
+    if "undo" in (frames[0].verb, *frames[0].flags):
+        return None  # `no, I mean, undo that and turn left`: that puts it right by itself
     if any("again" in frame.flags and not (frame.moves or frame.q) for frame in frames[1:]):
         raise Unclear(
             "unclear_motion", frames[0].text

@@ -34,7 +34,9 @@ _TURNING = frozenset({"angle", "turns", "number"})
 _SIDED = frozenset({"dir", "rot"})
 _STEPS = frozenset({"wait", "turn"})
 _CLOSED = frozenset({"square", "rectangle", "triangle", "pentagon", "hexagon", "octagon", "circle", "star"})
-_SAME_M = 1e-6
+_SENSES = frozenset({"same_way", "other_way"})
+_SAME = 1e-6
+"""Metres, and radians."""
 
 
 def passed_over(
@@ -47,12 +49,17 @@ def passed_over(
     moved = [turn for turn in turns if turn.moved and turn.plan is not None]
     before = [[*turn.plan.steps] for turn in moved if turn.plan is not None]
     atoms = atoms_said(plain)
-    found = _shape(plain, atoms, plan.steps) or _denied(atoms, plan.steps)
+    found = (
+        _shape(plain, atoms, plan.steps)
+        or _denied(atoms, plan.steps)
+        or _withdrawn(plain, language, plan, read)
+    )
     if found or not moved:
         return found or (_likeness(plain, language, atoms, plan.steps, before) if turns else "")
     return (
         _other_side(atoms, plan.steps, before[-1])
         or _side_of_slide(atoms, plan.steps, before[-1])
+        or _again(atoms, plan.steps, before[-1])
         or _measure(plain, language, plan.steps, before)
         or _likeness(plain, language, atoms, plan.steps, before)
         or next(
@@ -73,7 +80,7 @@ def _shape(plain: str, atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
     end = sum(cmath.rect(drive.distance_m or 0.0, drive.direction_rad) for drive in drives)
     shapes = (atom.text for atom in atoms if atom.kind == "shape" and atom.value in _CLOSED)
     named = (text for text in shapes if text in plain)
-    return next(named, "") if abs(end) > _SAME_M else ""
+    return next(named, "") if abs(end) > _SAME else ""
 
 
 def _denied(atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
@@ -86,6 +93,18 @@ def _denied(atoms: Sequence[Atom], steps: Sequence[Step]) -> str:
         if no.kind == "negation" and verb.value in done and not is_of_side:
             return verb.text
     return ""
+
+
+def _withdrawn(plain: str, language: str, plan: Plan, read: Callable[[str], Plan | None]) -> str:
+    """What takes a part of the order back, where all of it is in the plan: `…, then turn left, no, skip that`."""
+    found = form(language, "passed_over", "withdrawn").search(plain)
+    if found is None:
+        return ""
+    return (
+        found.group()
+        if _is_same(plan, f"{plain[: found.start()]}{plain[found.end() :]}".strip(), read)
+        else ""
+    )
 
 
 def _is_same(plan: Plan, rest: str, read: Callable[[str], Plan | None]) -> bool:
@@ -129,23 +148,38 @@ def _measure(plain: str, language: str, steps: Sequence[Step], before: Sequence[
     return found.group() if found is not None and count > 1 and [*steps] == last * count else ""
 
 
+def _again(atoms: Sequence[Atom], steps: Sequence[Step], last: Sequence[Step]) -> str:
+    """The word for once more, where only one motion is done so often after several: `again twice, but 50 cm`."""
+    counted = any((atom.kind, atom.value) == ("q", "times") for atom in atoms)
+    again = [atom.text for atom in atoms if (atom.kind, atom.value) == ("flag", "again")]
+    alone = len(set(steps)) == 1 < len(set(last)) and steps[0] not in last
+    return again[0] if again and counted and alone else ""
+
+
 def _likeness(
     plain: str, language: str, atoms: Sequence[Atom], steps: Sequence[Step], before: Sequence[list[Step]]
 ) -> str:
-    """What likens an order without an amount to a motion before, where no motion before was so far."""
+    """What likens an order without an amount to a motion before, where no motion before was as large."""
     found = form(language, "passed_over", "likeness").search(plain)
     if found is None or any(atom.kind == "q" and not _is_pronoun(atom) for atom in atoms):
         return ""
-    done = {m for each in before for m in _lengths(each)}
-    lengths = _lengths(steps)
-    new = [m for m in lengths if not any(abs(m - other) < _SAME_M for other in done)]
-    return found.group() if new and len(lengths) == 1 else ""
+    if any(atom.value in _SENSES for atom in atoms) and not _sizes(steps, Drive):
+        return ""  # `the same way`, after `turn 30`
+    done = {size for each in before for size in (*_sizes(each, Drive), *_sizes(each, Turn))}
+    sizes = _sizes(steps, Drive) or _sizes(steps, Turn)
+    new = [(kind, size) for kind, size in sizes if not any(_is_like(kind, size, other) for other in done)]
+    return found.group() if new and len(sizes) == 1 else ""
 
 
-def _lengths(steps: Sequence[Step]) -> set[float]:
-    """Those of the drives, in metres."""
-    drives = [step for step in expanded(steps) if isinstance(step, Drive)]
-    return {step.distance_m for step in drives if step.distance_m is not None}
+def _is_like(kind: str, size: float, other: tuple[str, float]) -> bool:
+    return kind == other[0] and abs(size - other[1]) < _SAME
+
+
+def _sizes(steps: Sequence[Step], kind: type[Drive] | type[Turn]) -> set[tuple[str, float]]:
+    """How far its drives went, in metres, or its turns on the spot, in radians."""
+    alike = [step for step in expanded(steps) if isinstance(step, kind)]
+    sizes = [step.distance_m if isinstance(step, Drive) else step.angle_rad for step in alike]
+    return {(kind.__name__, size) for size in sizes if size is not None}
 
 
 def _is_pronoun(atom: Atom) -> bool:

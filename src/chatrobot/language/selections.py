@@ -93,10 +93,18 @@ def chosen(found: re.Match[str], plain: str, language: str, dialogue: Dialogue) 
 def _of_sequence(dialogue: Dialogue, language: str) -> Dialogue:
     """The dialogue up to a sequence of which only parts were done since: `do the third step again`, `now the first`."""
     turns = dialogue.turns
-    while turns and (turns[-1].plan is None or pointed_at(plain_text(turns[-1].text), language) is not None):
+    while turns and (turns[-1].plan is None or _wants_parts(turns[-1].text, language)):
         turns = turns[:-1]
     is_sequence = bool(turns) and turns[-1].plan is not None and len(turns[-1].plan.steps) > 1
     return replace(dialogue, turns=turns) if is_sequence else dialogue
+
+
+def _wants_parts(text: str, language: str) -> bool:
+    """Whether a turn did parts of what was done before it once more."""
+    plain = plain_text(text)
+    return pointed_at(plain, language) is not None or any(
+        form.fullmatch(plain) for form in forms(language, "listed")
+    )
 
 
 def part_of_before(
@@ -300,9 +308,7 @@ def _units(dialogue: Dialogue, kind: str, language: str, *, with_corners: bool =
     Parts of a motion that were done once more since are not counted: `the second step again`, `now the first one`.
     """
     told = [turn for turn in dialogue.turns if turn.plan is not None and turn.walk is None]
-    whole = next(
-        (i for i in reversed(range(len(told))) if not pointed_at(plain_text(told[i].text), language)), -1
-    )
+    whole = next((i for i in reversed(range(len(told))) if not _wants_parts(told[i].text, language)), -1)
     picked_from = told[whole].plan if whole >= 0 else None
     if picked_from is not None and len(picked_from.steps) > 1 and kind != "said":
         told = told[: whole + 1]

@@ -37,8 +37,11 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
     if said == {"times"} and not whole.moves:
         return _rounds_missing(whole, steps, context)
     whole = _with_unit(_half_of(whole, step), meant, step)
-    if "length" in whole.q and isinstance(step, Drive) and len(steps) == 1:
-        done = math.hypot(moved.x_m, moved.y_m)
+    is_one = len(steps) == 1
+    if not is_one and (is_undone or last is not ordered or not _ends_alone(last, steps)):
+        raise Unclear("nothing_before", whole.text)
+    if "length" in whole.q and isinstance(step, Drive):
+        done = math.hypot(moved.x_m, moved.y_m) if is_one else step.distance_m or 0.0
         if "to_start" in whole.flags or "total" in whole.flags:
             done = max(done, last.end_pose.distance_to(_run_start(context, step)))
         if "number" in said and not is_undone and not done / 10 <= whole.q["length"].number <= 10 * done:
@@ -56,10 +59,10 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
             ]
         return [Drive(-missing, direction_rad=math.remainder(step.direction_rad + math.pi, 2 * math.pi))]
     angle = whole.q.get("angle") or whole.q.get("turns")
-    if angle and isinstance(step, Turn) and len(steps) == 1:
+    if angle and isinstance(step, Turn):
         # `no, right`: it has turned to the other side since.
         is_back = is_correction(last) and (moved.yaw_rad > 0.0) != step.left
-        done = abs(moved.yaw_rad)
+        done = abs(moved.yaw_rad) if is_one else step.angle_rad or 0.0
         if "total" in whole.flags and not is_undone:  # `30`, `30 more`, `make it 90 in total`
             done = max(done, turned_rad(context.dialogue, step.left))
         missing = _missing(whole, angle.number, done)
@@ -67,6 +70,11 @@ def to_total(whole: Frame, context: Context, pace: Pace) -> list[Step]:
             raise Unclear("contradiction", whole.text)
         return [Turn(abs(missing), left=(step.left != is_back) == (missing > 0))]
     raise Unclear("nothing_before", whole.text)
+
+
+def _ends_alone(last: TurnRecord, steps: Sequence[Step]) -> bool:
+    """Whether a motion ended as told, with a step the only one of its kind: `left, then 40 cm`, `I meant 60`."""
+    return last.outcome == "completed" and sum(type(step) is type(steps[-1]) for step in steps) == 1
 
 
 def back_as_far_in_all(whole: Frame, context: Context, pace: Pace) -> list[Step] | None:

@@ -55,13 +55,15 @@ def _at_pace(step: Step, whole: Frame, pace: Pace) -> Step:
     return replace(step, rate_radps=pace.rate(whole)) if isinstance(step, (Turn, Face)) else step
 
 
-def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bool) -> Walked:
+def undone(
+    whole: Frame, context: Context, profile: RobotProfile, *, kind: type[Turn] | type[Drive] | None
+) -> Walked:
     """`undo that`; `undo both`, `undo the last three`: so many turns that moved, the last one first.
 
-    `turning`: it is said to have been a turn.
+    `kind`: it is said to have been a turn, or a drive.
 
     Raises:
-        Unclear: where so many did not move, were no turns, or nobody knows the way back any more.
+        Unclear: where so many did not move, were nothing of that kind, or nobody knows the way back any more.
     """
     counts = [whole.q[name] for name in ("number", "count", "times") if name in whole.q]
     both = any(text.split()[-1] in ("both", "two") for text in whole.texts)
@@ -90,10 +92,11 @@ def undone(whole: Frame, context: Context, profile: RobotProfile, *, turning: bo
         return Walked(tuple(inverse(turns)), None)
     back = taken_back(context, profile, turns)
     way = context.dialogue.ledger.undoes(turns).way
-    if turning and (way is None or not all(isinstance(step, Turn) for step in way)):
-        turned: list[Step] = [step for step in way or () if isinstance(step, Turn)]
-        if way and turns == 1 and turned == [way[-1]]:  # `undo the turn`, which came last
-            return Walked(tuple(inverse(turned)), None)
+    alike = way is not None and all(kind is None or isinstance(step, kind) for step in way)
+    if kind is not None and not (alike and (kind is Turn or len(way or ()) == 1)):
+        of_kind: list[Step] = [step for step in way or () if isinstance(step, kind)]
+        if way and turns == 1 and of_kind == [way[-1]]:  # `undo the turn`, which came last
+            return Walked(tuple(inverse(of_kind)), None)
         raise Unclear("unclear_motion", whole.text)
     return back
 
