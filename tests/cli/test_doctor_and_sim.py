@@ -39,7 +39,7 @@ def test_doctor_fails_where_something_has_to_be_mended(chatrobot: Command, tmp_p
 def test_doctor_tells_an_error_once_and_looks_at_the_rest(chatrobot: Command, tmp_path: Path) -> None:
     (tmp_path / "places.json").write_text("{broken", encoding="utf-8")
     done = chatrobot.apart("doctor", "--robot", "r2d2", "--model", "clippy:95", "--config-dir", str(tmp_path))
-    assert "✗ remembered places" in done.out
+    assert "✗ remembered places, words" in done.out
     assert done.code == 1
     assert (done.out + done.err).count("no robot profile is called 'r2d2'") == 1
     assert "✓ simulated robot" in done.out

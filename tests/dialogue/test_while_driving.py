@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from tests.dialogue.undo_rig import UndoRig
 
@@ -249,20 +251,6 @@ def test_what_is_driven_afterwards_is_told_at_once(rig: UndoRig) -> None:
     assert told == ["After that: turn left 180°."]
 
 
-@pytest.mark.parametrize("said", ["stop and turn left", "halt, dreh um", "停，向左转"])
-def test_a_stop_tells_that_the_order_behind_it_was_not_done(rig: UndoRig, said: str) -> None:
-    driving(rig)
-    reply = rig.do(said).reply
-    assert said in reply
-    told = [event.reply for event in rig.events if isinstance(event, Interpreted) and event.by == "reflex"]
-    assert reply.endswith(told[0]), (
-        "by this the console knows that the reply tells more than the end of the motion"
-    )
-    rig.live(5.0)
-    assert rig.speed_mps == 0.0
-    assert rig.pose.yaw_rad == pytest.approx(0.0, abs=0.01)
-
-
 @pytest.mark.parametrize(
     "said", ["stop", "stop! there is a child in front", "halt, nicht nach links", "halt, nicht"]
 )
@@ -382,3 +370,125 @@ def test_what_is_to_come_after_it_waits_for_its_end(rig: UndoRig, said: str) -> 
     rig.session.say(said)
     rig.live(20.0)
     assert rig.session.results[first].outcome == "completed"
+
+
+@pytest.mark.parametrize(
+    ("said", "plan"),
+    [
+        ("stop and turn left", "turn left 90 deg"),
+        ("halt, dreh dich nach links", "turn left 90 deg"),
+        ("停，左转", "turn left 90 deg"),
+        ("no, stop, back up half a metre", "drive 0.5 m back"),
+        ("stop, that's far enough, now turn right 30", "turn right 30 deg"),
+    ],
+)
+def test_an_order_behind_a_stop_is_asked_about_and_done_after_a_yes(
+    rig: UndoRig, said: str, plan: str
+) -> None:
+    first, turn = driving(rig), rig.session.say(said)
+    rig.live(2.0)
+    stopped = rig.session.results[turn]
+    assert (rig.session.results[first].outcome, stopped.outcome) == ("stopped", "stopped")
+    assert stopped.proposal is not None
+    assert stopped.proposal.plan_text == plan
+    assert rig.do("yes").outcome == "completed"
+
+
+def test_no_stop_waits_for_what_is_asked_behind_it(rig: UndoRig) -> None:
+    driving(rig)
+    rig.session.say("stop and turn left")
+    rig.session.say("stop")
+    rig.live(2.0)
+    before = rig.pose
+    assert rig.do("yes").outcome != "completed"
+    assert rig.pose == before
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "stop",
+        "stop, don't turn left",
+        "stop, what is that?",
+        "stop, the other way",
+        "no, stop, only half a metre",
+        "stop, undo that",
+        "halt, nicht nach links",
+        "停，别左转",
+        "stop and wait",
+    ],
+)
+def test_what_orders_nothing_behind_a_stop_or_depends_on_how_far_it_came_is_not_asked_about(
+    rig: UndoRig, said: str
+) -> None:
+    driving(rig)
+    turn = rig.session.say(said)
+    rig.live(2.0)
+    assert rig.session.results[turn].outcome == "stopped"
+    assert rig.session.results[turn].proposal is None
+
+
+@pytest.mark.parametrize(
+    ("said", "place"),
+    [
+        ("no wait, I meant the tv", "tv"),
+        ("wait, the tv", "tv"),
+        ("not the sofa, the tv", "tv"),
+        ("no, not the sofa, the desk", "desk"),
+        ("nicht zum Sofa, zum Fernseher", "tv"),
+        ("warte, in die Küche", "kitchen"),
+        ("不是沙发，是电视", "电视"),
+        ("停，不去沙发了，去厨房", "厨房"),
+    ],
+)
+def test_another_place_on_the_way_to_one_stops_and_is_asked_about(said: str, place: str) -> None:
+    rig = UndoRig("home", options=ASKING)
+    driving(rig, "go to the sofa")
+    turn = rig.session.say(said)
+    rig.live(2.0)
+    assert not rig.session.is_moving
+    proposal = rig.session.results[turn].proposal
+    assert proposal is not None
+    assert f'named "{place}"' in proposal.plan_text.casefold()
+
+
+@pytest.mark.parametrize("said", ["go", "go!", "go go go", "los", "fahr los", "走吧", "come on"])
+def test_go_lets_go_on_what_is_driven(rig: UndoRig, said: str) -> None:
+    first = driving(rig)
+    assert rig.do(said).outcome == "answered"
+    rig.live(20.0)
+    assert rig.session.results[first].outcome == "completed"
+    assert rig.x_m == pytest.approx(3.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "turn right when you get there",
+        "when you're done, turn right",
+        "also turn right once you're there",
+        "dreh dich nach rechts, wenn du da bist",
+        "到了以后右转",
+    ],
+)
+def test_what_is_to_be_done_there_waits_for_the_end(rig: UndoRig, said: str) -> None:
+    first, turn = driving(rig), rig.session.say(said)
+    rig.live(30.0)
+    assert rig.session.results[first].outcome == "completed"
+    assert rig.session.results[turn].outcome == "completed"
+    assert rig.x_m == pytest.approx(3.0, abs=0.02)
+
+
+@pytest.mark.parametrize("said", ["how much longer?", "how far to go?", "wie weit noch?", "还有多远"])
+def test_the_metres_and_seconds_to_go_are_told(rig: UndoRig, said: str) -> None:
+    def told() -> tuple[float, float]:
+        reply = rig.do(said).reply.replace(",", ".")
+        return tuple(float(re.findall(rf"([\d.]+) {unit}", reply)[0]) for unit in ("(?:m|米)", "(?:s|秒)"))
+
+    driving(rig)
+    at_m = rig.x_m
+    assert told() == (pytest.approx(3.0 - at_m, abs=0.03), pytest.approx((3.0 - at_m) / 0.3, abs=1.5))
+    rig.session.say("slower")
+    rig.live(1.0)
+    at_m = rig.x_m
+    assert told() == (pytest.approx(3.0 - at_m, abs=0.03), pytest.approx((3.0 - at_m) / 0.15, abs=1.5))

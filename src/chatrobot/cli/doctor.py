@@ -60,7 +60,7 @@ def _checks(args: argparse.Namespace) -> Iterator[Check]:
     yield settings
     if settings.state == "missing":
         return  # everything else looks there first
-    places = _try("remembered places", lambda: _places(args))
+    places = _try("remembered places, words", lambda: _places(args))
     if places.state == "missing":
         yield places
     profile = _try("robot profile", lambda: _profile(args))
@@ -92,9 +92,11 @@ def _settings(args: argparse.Namespace) -> str:
 
 def _places(args: argparse.Namespace) -> str:
     from chatrobot.dialogue.places import Places
+    from chatrobot.dialogue.words import Words
     from chatrobot.language.phrases import render_reason
 
-    unkept = Places(config_folder(args), args.robot, "").take_unkept()
+    kept = (kind(config_folder(args), args.robot, "") for kind in (Places, Words))
+    unkept = next(filter(None, (one.take_unkept() for one in kept)), None)
     if unkept is not None:
         raise ChatRobotError(render_reason(unkept, "en"))
     return "kept"

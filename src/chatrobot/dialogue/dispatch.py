@@ -62,8 +62,7 @@ class Dispatch:
         if self._utterances.is_void(utterance):
             self._drop(utterance)
             return
-        unread = utterance.why_unreadable
-        if unread:
+        if unread := utterance.why_unreadable:
             reply = self._understanding.say(unread, utterance.text, limit=MOST_CHARACTERS)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
@@ -79,20 +78,22 @@ class Dispatch:
         elif utterance.kind in ("program", "draft", "source"):
             self._begin_program(utterance)
         else:
-            code = "stopped_now" if utterance.kind != "emergency_stop" else "emergency_stopped"
-            reply = self._understanding.say(self._understanding.stop_code(code), utterance.text)
-            if utterance.kind == "pause":
-                reply = self._told("paused_now", self._resuming.paused)
-            else:
-                self._understanding.close_question()
-            undone = ""
-            if utterance.kind == "stop" and self._understanding.can_do(
-                utterance.text
-            ):  # `stop and turn left`
-                undone = self._understanding.say("only_stopped", utterance.text)
-                reply = f"{reply} {undone}"
-            self._emit(Interpreted(utterance.turn, "reflex", "", undone))
-            self._requests.conclude(utterance.turn, "stopped", reply)
+            self._end_stopped(utterance)
+
+    def _end_stopped(self, utterance: Utterance) -> None:
+        """Tell of a stop that was sent when it was said; what the text orders beside it is asked about."""
+        code = "stopped_now" if utterance.kind != "emergency_stop" else "emergency_stopped"
+        reply = self._understanding.say(self._understanding.stop_code(code), utterance.text)
+        asked = Interpretation("stop", "", self._understanding.language)
+        if utterance.kind == "pause":
+            reply = self._told("paused_now", self._resuming.paused)
+        else:
+            self._understanding.close_question()
+        if utterance.kind == "stop" and not self._utterances.is_void_turn(utterance.turn):
+            asked = self._while_driving.behind_stop(utterance.text) or asked
+        self._emit(Interpreted(utterance.turn, "reflex", "", asked.reply))
+        reply = f"{reply} {asked.reply}".rstrip()
+        self._requests.conclude(utterance.turn, "stopped", reply, proposal=asked.proposal)
 
     def texts_behind(self, turn: int) -> tuple[str, ...]:
         """Return what is done after that turn, which is paused: what Motion has already, and what waits here."""
@@ -211,7 +212,7 @@ class Dispatch:
             reply = self._told("paused_now", self._resuming.paused)
             self._act_on(utterance, Interpretation("unclear", reply, self._understanding.language))
             return
-        meant = self._understanding.interpret(utterance.text, self._requests.under_way)
+        meant = self._while_driving.interpret(utterance.text)
         if meant.outcome == "unclear" and (code := told_at_console(utterance.text)):  # no model guesses at it
             reply = self._understanding.say(code, utterance.text, command=utterance.text.split()[0])
             self._act_on(utterance, Interpretation("refused", reply, self._understanding.language))
@@ -257,9 +258,9 @@ class Dispatch:
             meant = replace(meant, reply=self._told("paused_now", paused))
         elif self._understanding.tells_it_moves(meant):
             meant = replace(meant, reply=self._while_driving.told(meant.language) or meant.reply)
-        elif self._goals.options.rehearse_only and (meant.remember_place or meant.renamed):
-            told = say(meant.language, "only_rehearsed")
-            meant = replace(meant, reply=told, remember_place="", renamed={})
+        elif self._goals.options.rehearse_only and meant.teaches:
+            meant = replace(meant, reply=say(meant.language, "only_rehearsed"))
+            meant = replace(meant, remember_place="", renamed={}, define={})
         elif paused is None and (meant.outcome == "unclear" or meant.proposal is not None):
             asked, meant = meant, self._while_driving.beside(meant)
             self._proposals.is_left_unasked = asked.proposal is not None and meant.proposal is None
@@ -267,8 +268,7 @@ class Dispatch:
         interpreted = Interpreted(utterance.turn, "offline", plan_text, meant.reply)
         if meant.outcome == "plan":
             if meant.append and self._requests.is_any_with_motion:
-                told = say(meant.language, "after_that", plan=meant.reply)
-                interpreted = replace(interpreted, reply=told)
+                interpreted = replace(interpreted, reply=say(meant.language, "after_that", plan=meant.reply))
             # Before it is told: telling takes longer than the way to Motion.
             self._send_plan(utterance, meant, plan_text, instead_of)
             self._understanding.close_question()
@@ -278,7 +278,7 @@ class Dispatch:
         if meant.outcome == "stop":
             self._stop(utterance.text[:80])
             self._understanding.close_question()
-            self._requests.conclude(utterance.turn, "stopped", meant.reply)
+            self._requests.conclude(utterance.turn, "stopped", meant.reply, proposal=meant.proposal)
         else:
             for thing in meant.obstacles:
                 self._place(thing)

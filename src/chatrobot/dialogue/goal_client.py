@@ -170,7 +170,7 @@ class RequestLog:
         """End that turn: `finished` is what was measured, None where nothing moved; the reply asks about `proposal`."""
         self.take(turn)
         understanding = self._understanding
-        unkept, left_out = understanding.places.take_unkept(), self._left_out.pop(turn, None)
+        unkept, left_out = understanding.take_unkept(), self._left_out.pop(turn, None)
         if unkept is not None:
             self._emit(Notice(turn, unkept))
         reason = reason or (finished.reason if finished is not None else None)

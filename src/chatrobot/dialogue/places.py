@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -11,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from chatrobot.core.events import Finished, Telemetry
-from chatrobot.core.files import write_whole
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason, one_line
 from chatrobot.core.sensed_events import ObstacleChanged
+from chatrobot.dialogue.robot_file import Entry, RobotFile
 from chatrobot.language.context import Place, Thing
 from chatrobot.link.motion_link import LAPSES_AFTER_M, LAPSES_AFTER_RAD
 from chatrobot.plan.base import expanded
@@ -30,10 +29,7 @@ if TYPE_CHECKING:
     from chatrobot.plan.context import RoutePlanner
 
 
-_FILE = "places.json"
-_Entries = dict[str, dict[str, object]]
-_UNREADABLE = (ValueError, KeyError, AttributeError, TypeError, RecursionError)
-"""What a file raises that somebody else has written to."""
+_CODES = ("places_not_kept", "places_unreadable")
 MOVED = "cannot_undo_moved"
 ODOMETRY_ANEW = "cannot_undo_odometry_anew"
 UNMEASURED = "cannot_undo_unmeasured"
@@ -56,72 +52,36 @@ class Places:
     """
 
     def __init__(self, folder: Path | None, robot: str, epoch: str) -> None:
-        self._path = folder / _FILE if folder is not None else None
-        self._robot = robot
         self._epoch = epoch
-        self._unkept: Reason | None = None
-        self._kept = self._load()
+        self._file = RobotFile(folder, "places", _CODES, robot, self._place)
 
     def add(self, name: str, pose: Pose) -> None:
         """Remember `pose` under `name`; an older place of that name is replaced."""
-        tidy = one_line(name, MAX_PLACE_CHARS)
-        self._kept[tidy] = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
-        self._keep()
+        entry = {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad, "epoch": self._epoch}
+        self._file.entries[one_line(name, MAX_PLACE_CHARS)] = entry
+        self._file.keep()
 
     def rename(self, name: str, new: str) -> None:
         """Call a place otherwise, or forget it where `new` is empty; nothing where there is none of that name."""
-        entry = self._kept.pop(name, None)
+        entry = self._file.entries.pop(name, None)
         if entry is None:
             return
         if new:
-            self._kept[one_line(new, MAX_PLACE_CHARS)] = entry
-        self._keep()
-
-    def _keep(self) -> None:
-        try:
-            self._save()
-        except OSError as error:  # a full disk is no reason to stop a robot
-            self._unkept = Reason("places_not_kept", {"why": error.strerror or str(error)})
-        except _UNREADABLE:
-            self._unkept = Reason("places_unreadable", {"file": str(self._path)})
+            self._file.entries[one_line(new, MAX_PLACE_CHARS)] = entry
+        self._file.keep()
 
     def take_unkept(self) -> Reason | None:
         """Return why places are remembered for this session only; once, None where they are kept."""
-        unkept, self._unkept = self._unkept, None
-        return unkept
+        return self._file.take_unkept()
 
     def all(self) -> Mapping[str, Place]:
         """Return every place by name."""
-        return {name: self._place(entry) for name, entry in self._kept.items()}
+        found = self._file.entries.items()
+        return {one_line(name, MAX_PLACE_CHARS): self._place(name, entry) for name, entry in found}
 
-    def _place(self, entry: Mapping[str, object]) -> Place:
+    def _place(self, _name: str, entry: Entry) -> Place:
         x, y, yaw = (float(str(entry[key])) for key in ("x_m", "y_m", "yaw_rad"))
         return Place(Pose(x, y, yaw), usable=entry["epoch"] == self._epoch)
-
-    def _load(self) -> _Entries:
-        try:
-            return self._read()[1]
-        except (OSError, *_UNREADABLE):  # no reason not to drive
-            self._unkept = Reason("places_unreadable", {"file": str(self._path)})
-            return {}
-
-    def _read(self) -> tuple[dict[str, object], _Entries]:
-        """Return what the file holds of all robots, and the places of ours. Raises one of `_UNREADABLE`."""
-        if self._path is None or not self._path.exists():
-            return {}, {}
-        robots = json.loads(self._path.read_text(encoding="utf-8"))
-        found: _Entries = dict(robots.get(self._robot, {}))
-        for entry in found.values():
-            self._place(entry)
-        return robots, {one_line(name, MAX_PLACE_CHARS): entry for name, entry in found.items()}
-
-    def _save(self) -> None:
-        """A file that may be mended stays as it is, too."""
-        if self._path is None:
-            return
-        robots, _ = self._read()
-        robots[self._robot] = self._kept
-        write_whole(self._path, json.dumps(robots, ensure_ascii=False, indent=1))
 
 
 class RestWatch:

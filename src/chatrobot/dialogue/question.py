@@ -17,7 +17,7 @@ from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.places import ends_alike
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.dialogue.utterances import Utterance
+from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
@@ -76,6 +76,7 @@ class _Offered(NamedTuple):
     approval: Approval
     is_placed: bool  # whether the robot had said where it is; until then nobody can see that it was moved
     is_driven: bool  # whether the robot is on its way, and so will be elsewhere when the yes comes
+    voids: int  # how many stops there had been, with the one that it was asked beside
 
     def lapsed(self, plan: Plan, now_s: float, pose: Pose) -> Reason | None:
         """Return why a yes to `plan` is worth nothing any more; None where it counts."""
@@ -87,23 +88,28 @@ class Proposals:
     """Keeps the plan that waits for an answer. Belongs to the pumping thread.
 
     Args:
-        is_void_turn: whether a stop came after that turn was said.
+        utterances: knows how many stops there were.
         approve: answers a rehearsed plan that waits for a yes, by its turn.
     """
 
     def __init__(
         self,
         understanding: Understanding,
-        is_void_turn: Callable[[int], bool],
+        utterances: UtteranceQueue,
         approve: Callable[[int, bool], None],
     ) -> None:
         self._understanding, self._approve = understanding, approve
         self.rehearsed, self._asked_at_s = Question(), 0.0
-        self._is_void_turn = is_void_turn
+        self._utterances = utterances
         self._offered: _Offered | None = None
         self.is_left_unasked = False
         """The last text was understood as a plan that no yes counts for: that yes, or a `go`, is no order, either."""
         self._driving: frozenset[int] = frozenset()
+
+    @property
+    def _voids(self) -> int:
+        """How many stops there were, pauses not counted."""
+        return self._utterances.stops - self._utterances.pauses
 
     def declines_motion(self, text: str) -> bool:
         """Return whether `text` says no to what moves, and not to an offer, or a plan that waits. From any thread."""
@@ -126,7 +132,9 @@ class Proposals:
             approval = Approval(time.monotonic(), event.pose or self._understanding.pose)
             known = self._understanding.known_pose
             is_driven = bool(self._driving)
-            self._offered = _Offered(event.turn, event.proposal, approval, known is not None, is_driven)
+            self._offered = _Offered(
+                event.turn, event.proposal, approval, known is not None, is_driven, self._voids
+            )
         elif isinstance(event, Telemetry) and self._offered is not None and not self._offered.is_placed:
             if (here := self._understanding.known_pose) is not None:
                 approval = replace(self._offered.approval, start=here)
@@ -172,7 +180,7 @@ class Proposals:
         if is_left and yes is not None:
             code = "approval_robot_moved" if yes else "offer_declined"
             return Interpretation("refused" if yes else "answered", say(language, code), language)
-        if offered is None or utterance.kind != "text" or self._is_void_turn(offered.turn):
+        if offered is None or utterance.kind != "text" or offered.voids != self._voids:
             return None
         plan = parse_plan(offered.proposal.plan_text)
         changed = self._understanding.amended(plan, utterance.text) if yes is None else plan

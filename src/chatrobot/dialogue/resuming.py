@@ -19,6 +19,7 @@ from chatrobot.dialogue.understanding import Understanding
 from chatrobot.language.interpretation import Interpretation, planned
 from chatrobot.language.phrases import describe_steps, describe_text, say
 from chatrobot.plan.base import expanded
+from chatrobot.plan.speed_scaling import SpeedScaling
 from chatrobot.plan.steps import Drive, Step, Turn
 
 _LEAST = 0.05
@@ -34,19 +35,46 @@ class UnderWay:
         self._began_at = ORIGIN
         self._pose = ORIGIN
         self._turned_rad = 0.0
+        self._rehearsed: dict[int, Rehearsed] = {}
+        self._length_m = self._duration_s = 0.0
+        self._driven_m = self._fraction = 0.0
 
     def hear(self, event: Event) -> None:
         """Follow the motion by its events."""
-        if isinstance(event, Started):
+        if isinstance(event, Rehearsed):
+            self._rehearsed[event.turn] = event
+        elif isinstance(event, Started):
             self._turn, self._step = event.turn, 0
             self._at(event.pose)
+            self._expect(self._rehearsed.get(event.turn))
         elif isinstance(event, Progress):
             if (event.turn, event.step) != (self._turn, self._step):
                 self._turn, self._step = event.turn, event.step
                 self._at(event.pose)
             turned_rad = math.remainder(event.pose.yaw_rad - self._pose.yaw_rad, 2 * math.pi)
             self._turned_rad += turned_rad
+            self._driven_m += math.hypot(event.pose.x_m - self._pose.x_m, event.pose.y_m - self._pose.y_m)
+            self._fraction = event.fraction if event.fraction is not None else 1.0
             self._pose = event.pose
+
+    def _expect(self, rehearsed: Rehearsed | None) -> None:
+        """Take in how far and how long the turn that begins will drive; zeros where nobody knows."""
+        is_known = rehearsed is not None and not rehearsed.open_ended
+        self._length_m = rehearsed.length_m if rehearsed is not None and is_known else 0.0
+        self._duration_s = rehearsed.duration_s if rehearsed is not None and is_known else 0.0
+        self._driven_m = self._fraction = 0.0
+        self._rehearsed.clear()
+
+    def rescale(self, scaling: SpeedScaling) -> None:
+        """Take in that the rest is driven at another speed, as Motion's executor does."""
+        factor = scaling.linear_factor if scaling.linear_factor != 1.0 else scaling.angular_factor
+        self._duration_s += self._duration_s * (1.0 - self._fraction) * (1.0 / factor - 1.0)
+
+    def to_go(self, turn: int) -> tuple[float, float]:
+        """Return the metres and seconds that are left of that turn; zeros where nobody knows."""
+        if self.step_of(turn) == 0:
+            return 0.0, 0.0
+        return max(0.0, self._length_m - self._driven_m), self._duration_s * (1.0 - self._fraction)
 
     def _at(self, pose: Pose) -> None:
         self._began_at = self._pose = pose

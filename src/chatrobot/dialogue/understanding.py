@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from chatrobot.core.events import Finished, Outcome, Remembered, Telemetry
 from chatrobot.core.geometry import ZERO_TWIST, Pose
+from chatrobot.core.reason import Reason
 from chatrobot.dialogue.places import UNMEASURED, MapWays, Places, RestWatch
 from chatrobot.dialogue.replies import describe_end, describe_model_end
+from chatrobot.dialogue.words import Words
 from chatrobot.language.consent import unasked
 from chatrobot.language.context import Context, Dialogue, RobotState
 from chatrobot.language.detect import language_of
@@ -59,7 +61,6 @@ class Understanding:
         self.is_simulated = bool(frame)
         """Whether things can be put around the robot and taken away."""
         self.profile, self._interpreter = profile, OfflineInterpreter(profile)
-        self._dialogue = Dialogue()
         self._state = RobotState(has_said_so=False, is_measured=profile.has_odometry)
         self.world_places = {alias: world.places[main] for alias, main in world.aliases.items()}
         self.main_places = dict(world.places)
@@ -69,9 +70,10 @@ class Understanding:
         self._without_heading = frozenset(
             alias for alias, main in world.aliases.items() if main in world.without_heading
         )
-        self.places = Places(folder, profile.name, frame or uuid.uuid4().hex)
-        self._rest = RestWatch()
-        self._started, self._reaches_robot = False, True
+        epoch = frame or uuid.uuid4().hex
+        self.places, self._words = Places(folder, profile.name, epoch), Words(folder, profile.name, epoch)
+        self._dialogue = Dialogue(words=self._words.all())
+        self._rest, self._started, self._reaches_robot = RestWatch(), False, True
         self.language: LanguageCode = "en"
         self._last: tuple[str, Context] | None = None
         """The text that was interpreted last, and what was known then."""
@@ -233,8 +235,7 @@ class Understanding:
 
     def language_of(self, text: str) -> LanguageCode:
         """Return the language of `text`; of what was said last, where it has none."""
-        has_letters = any(map(str.isalpha, text))
-        return language_of(text, self.language) if has_letters else self.language
+        return language_of(text, self.language) if any(map(str.isalpha, text)) else self.language
 
     def note_telemetry(self, event: Telemetry, *, is_ours: bool) -> None:
         """Note where the robot is. `is_ours`: a turn of ours moves it, or may."""
@@ -300,16 +301,15 @@ class Understanding:
         return say(language, "only_rehearsed") if rehearse_only and ended.outcome == "completed" else told
 
     def _learn(self, meant: Interpretation) -> None:
-        dialogue = self._dialogue
         for name, new in meant.renamed.items():
             self.places.rename(name, new)
-        words = {meant.renamed.get(name, name): plan for name, plan in dialogue.words.items()}
-        words.pop("", None)  # forgotten
-        self._dialogue = replace(
-            dialogue,
-            words={**words, **meant.define},
-            usual=dialogue.usual.changed(meant.usual),
-        )
+        words = self._words.learn(meant.define, meant.renamed)
+        usual = self._dialogue.usual.changed(meant.usual)
+        self._dialogue = replace(self._dialogue, words=words, usual=usual)
+
+    def take_unkept(self) -> Reason | None:
+        """Return why places, or words, are kept for this session only; once, None where they are kept."""
+        return self.places.take_unkept() or self._words.take_unkept()
 
     def _as_if_done(self, instruction: Instruction) -> TurnRecord:
         text, meant, start = instruction
@@ -327,7 +327,7 @@ class Understanding:
         if finished.duration_s:
             self._state = replace(self._state, pose=finished.pose, twist=ZERO_TWIST, moving=False)
         self._lose(self._rest.begin(finished))
-        measured = replace(
+        record = replace(
             record,
             start_pose=finished.start,
             end_pose=finished.pose,
@@ -336,7 +336,7 @@ class Understanding:
             lost="" if finished.measured else UNMEASURED,
             duration_s=finished.duration_s,
         )
-        self._record(measured)
+        self._record(record)
         self._lose(self._rest.end(finished))
 
     def _lose(self, code: str) -> None:

@@ -6,6 +6,7 @@ that the motion breaks.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -22,11 +23,16 @@ from chatrobot.language.driven import rescaled, says
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import describe_text, render_reason, say
+from chatrobot.language.proposals import proposed
+from chatrobot.language.resuming import only_starts
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling
-from chatrobot.plan.steps import Plan, Step, Wait
+from chatrobot.plan.steps import Go, Plan, Step, Wait
 from chatrobot.plan.text import format_plan, parse_plan
+
+_LEAST_M, _LEAST_S = 0.05, 0.5
+"""What is less than that to go is not told in figures."""
 
 
 class _Motion(NamedTuple):
@@ -85,18 +91,47 @@ class WhileDriving:
         after = scaling.plan(motion.plan, self._understanding.profile)
         self._goals.rescale(motion.turn, scaling)
         self._requests.rescale(motion.turn, scaling)
+        self._resuming.under_way.rescale(scaling)
         paused = self._resuming.paused
         if paused is not None:
             self._resuming.paused = replace(paused, plan_text=format_plan(after))
             return self._told("paused_now", after.steps)
         return self._told("goes_on", self._resuming.under_way.left(motion.turn, after.steps))
 
+    def interpret(self, text: str) -> Interpretation:
+        """Return what `text` means now. `Go!` lets go on what is driven, and `again` comes after it."""
+        if self._motion() is not None and self._resuming.paused is None and only_starts(text):
+            self._understanding.hear_language(text)
+            language = self._understanding.language
+            return Interpretation("answered", say(language, "is_going_on"), language)
+        return self._understanding.interpret(text, self._requests.under_way)
+
     def stop(self, text: str) -> Interpretation | None:
         """Return the stop that `text` is, where it is against what is driven."""
         if self._motion() is None or not self._forbids(text):
             return None
-        language = self._understanding.language
-        return Interpretation("stop", say(language, self._understanding.stop_code()), language)
+        self._understanding.hear_language(text)
+        language, asked = self._understanding.language, self.behind_stop(text)
+        stopped = Interpretation("stop", say(language, self._understanding.stop_code()), language)
+        if asked is None:
+            return stopped
+        return replace(stopped, reply=f"{stopped.reply} {asked.reply}", proposal=asked.proposal)
+
+    def behind_stop(self, text: str) -> Interpretation | None:
+        """Return the question about what `text`, a stop, orders beside it; None where that is nothing.
+
+        What depends on how far the stopped motion came is not asked about: that is not known yet.
+        """
+        understanding = self._understanding
+        meant = understanding.read(text, understanding.context(self._requests.under_way))
+        steps = meant.plan.steps if meant.plan is not None and not meant.append else ()
+        while steps and isinstance(steps[0], Wait):  # the stop word, read as one: `halt, turn left`
+            steps = steps[1:]
+        if meant.is_about_turn_before:  # `no wait, the kitchen` goes there from wherever the robot stands
+            steps = steps if all(isinstance(step, Go) for step in steps) else ()
+        elif meant.walk is not None:
+            steps = ()
+        return proposed(replace(meant, plan=Plan(steps)), meant.language) if steps else None
 
     def _motion(self) -> _Motion | None:
         """What is driven or paused; None where there is nothing, or it has not set out."""
@@ -120,7 +155,26 @@ class WhileDriving:
         if paused is not None:
             return self._told("paused_now", parse_plan(paused.plan_text).steps)
         language = self._understanding.language
-        return Interpretation("answered", self.told(language), language)
+        return Interpretation("answered", self._to_go(language) or self.told(language), language)
+
+    def _to_go(self, language: str) -> str:
+        """The metres and seconds to go, and what is still to be done; "" where nobody knows how far it is."""
+        turn, steps = self._all_steps()
+        left_m, left_s = self._resuming.under_way.to_go(turn)
+        left = self._resuming.under_way.left(turn, steps)
+        if left_s < _LEAST_S or not left:
+            return ""
+        code = "answer_to_go" if left_m >= _LEAST_M else "answer_to_go_s"
+        plan = self._understanding.describe(left)
+        return say(language, code, left_m=left_m, left_s=f"{math.ceil(left_s)}", plan=plan)
+
+    def _all_steps(self) -> tuple[int, list[Step]]:
+        """The turn that runs, and the steps of all that are under way."""
+        running = self._requests.first_with_motion
+        plans = [one.meant.plan for one in self._requests.under_way]
+        return running[0] if running else 0, [
+            step for plan in plans if plan is not None for step in plan.steps
+        ]
 
     def _told(self, code: str, steps: Sequence[Step]) -> Interpretation:
         language = self._understanding.language
@@ -132,8 +186,7 @@ class WhileDriving:
         running = self._requests.first_with_motion
         if running is None or running[1].meant.plan is None:
             return ""
-        turn, plans = running[0], [one.meant.plan for one in self._requests.under_way]
-        steps = [step for plan in plans if plan is not None for step in plan.steps]
+        turn, steps = self._all_steps()
         return self._resuming.under_way.told(turn, steps, language, self._understanding.speed_mps)
 
     def beside(self, meant: Interpretation) -> Interpretation:

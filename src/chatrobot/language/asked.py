@@ -6,6 +6,7 @@ from chatrobot.language import questions
 from chatrobot.language.acts import orders as is_ordered
 from chatrobot.language.frames import GO, TURN, Frame
 from chatrobot.language.interpretation import Interpretation
+from chatrobot.language.place_questions import place_here
 from chatrobot.language.reading import Reading, frames_of
 from chatrobot.language.tokens import Atom
 from chatrobot.language.unclear import Unclear
@@ -44,7 +45,8 @@ def answered_question(
     if not topic:
         return None
     reply = questions.answer(topic, language, reading.context, reading.profile)
-    return Interpretation("answered", reply, language)
+    here = place_here(language, reading.context) if topic == "position" else ""
+    return Interpretation("answered", f"{here} {reply}".lstrip(), language)
 
 
 def _requests(plain: str, atoms: list[Atom], language: str, *, ability: bool) -> bool:

@@ -102,6 +102,11 @@ class Interpretation:
         return parse_plan(self.proposal.plan_text) if self.proposal is not None else None
 
     @property
+    def teaches(self) -> bool:
+        """A place or a word is learnt by it, called otherwise or forgotten, beside what it may drive."""
+        return bool(self.remember_place or self.renamed or self.define)
+
+    @property
     def is_about_turn_before(self) -> bool:
         """It undoes, does again or puts right, so that the turn before must have ended."""
         return self.walk is not None or self.corrects

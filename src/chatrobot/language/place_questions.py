@@ -112,6 +112,17 @@ def _beside(place: _Place, known: list[_Place], language: str) -> str:
     return say(language, "place_beside", place=place.name, places=told)
 
 
+def place_here(language: LanguageCode, context: Context) -> str:
+    """`I am at the kitchen.`, where the robot stands at a place that has a name; else an empty string."""
+    places = [
+        place for place in _known(context, language).values() if place.pose != context.dialogue.start_pose
+    ]
+    here = min(places, key=lambda place: _straight_m(place, context), default=None)
+    if here is None or _straight_m(here, context) > _HERE_M or unknown_pose(context):
+        return ""
+    return say(language, "answer_place_here", place=here.name)
+
+
 def _spoken_of(language: str, context: Context) -> str:
     """The place that was named last: it is meant by `it`; an empty string where none was."""
     known = sorted(_known(context, language), key=len, reverse=True)

@@ -32,6 +32,17 @@ def wants_to_resume(text: str, *, may_mean_more: bool = True) -> bool:
     return any(_says_to_resume(language, may_mean_more)(text) for language in REPLY_LANGUAGES)
 
 
+def only_starts(text: str) -> bool:
+    """Whether `text` says to begin a motion, and not which: `go!`."""
+    return any(_says_to_start(language)(text) for language in REPLY_LANGUAGES)
+
+
+@cache
+def _says_to_start(language: str) -> Callable[[str], bool]:
+    table = load_table(language, "resuming")
+    return saying(table["start"], table["beside"], language)
+
+
 @cache
 def _says_to_resume(language: str, may_mean_more: bool) -> Callable[[str], bool]:
     table = load_table(language, "resuming")
