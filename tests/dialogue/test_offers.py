@@ -96,3 +96,14 @@ def test_a_models_plan_beyond_the_limit_offers_nothing() -> None:
     _, asked = refused("drive 2 m\n", budget=MotionBudget(1.0))
     assert asked.outcome == "refused"
     assert asked.proposal is None
+
+
+@pytest.mark.parametrize("said", ["go on", "weiter", "continue", "继续"])
+def test_go_on_after_an_offer_asks_again_and_drives_nothing_of_before(said: str) -> None:
+    talk = Talk(world="home")
+    talk.do("30 cm back")
+    offer = talk.do("forward 9 m").proposal
+    again = talk.do(said)
+    assert again.outcome == "unclear"
+    assert again.proposal == offer
+    assert talk.do("yes").outcome == "completed"

@@ -435,7 +435,6 @@ def test_what_orders_nothing_behind_a_stop_or_depends_on_how_far_it_came_is_not_
         ("wait, the tv", "tv"),
         ("not the sofa, the tv", "tv"),
         ("no, not the sofa, the desk", "desk"),
-        ("nicht zum Sofa, zum Fernseher", "tv"),
         ("warte, in die Küche", "kitchen"),
         ("不是沙发，是电视", "电视"),
         ("停，不去沙发了，去厨房", "厨房"),
@@ -492,3 +491,57 @@ def test_the_metres_and_seconds_to_go_are_told(rig: UndoRig, said: str) -> None:
     rig.live(1.0)
     at_m = rig.x_m
     assert told() == (pytest.approx(3.0 - at_m, abs=0.03), pytest.approx((3.0 - at_m) / 0.15, abs=1.5))
+
+
+@pytest.mark.parametrize(
+    ("orders", "said"),
+    [
+        (("go to the kitchen", "and then to the fridge"), "oh no, leave out the fridge"),
+        (("go to the kitchen", "and then to the fridge"), "not to the fridge"),
+        (("Fahr in die Küche", "und danach zum Kühlschrank"), "ach ne, lass den Kühlschrank weg"),
+        (("去厨房", "然后去冰箱"), "冰箱就不去了"),
+        (("go to the kitchen", "then turn around"), "forget about turning around"),
+        (("zum Tisch bitte", "dann drehst du dich um"), "lass das mit dem Umdrehen"),
+        (("去厨房", "然后转一圈"), "不用转圈了"),
+    ],
+)
+def test_what_waits_is_dropped_by_its_place_or_its_turn_and_the_rest_goes_on(
+    orders: tuple[str, str], said: str
+) -> None:
+    rig = UndoRig("home", options=ASKING)
+    first = rig.session.say(orders[0])
+    rig.live(1.0)
+    second = rig.session.say(orders[1])
+    rig.live(0.5)
+    rig.session.say(said)
+    rig.live(60.0)
+    assert rig.session.results[first].outcome == "completed"
+    assert rig.session.results[second].outcome == "stopped"
+
+
+@pytest.mark.parametrize("said", ["skip the kitchen", "not to the kitchen", "不去厨房了"])
+def test_the_way_to_a_place_that_is_dropped_under_way_is_stopped(said: str) -> None:
+    rig = UndoRig("home", options=ASKING)
+    driving(rig, "go to the kitchen")
+    rig.do(said)
+    assert not rig.session.is_moving
+
+
+@pytest.mark.parametrize("said", ["faster again", "ok, faster again", "wieder schneller"])
+def test_the_speed_changes_again(rig: UndoRig, said: str) -> None:
+    driving(rig, "forward 3 m at 0.1 m/s")
+    rig.session.say(said)
+    rig.live(1.0)
+    assert rig.speed_mps == pytest.approx(0.17, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "said", ["and at the sofa turn around", "when at the sofa, turn around", "und am Sofa drehst du dich um"]
+)
+def test_what_is_to_be_done_at_the_place_that_is_driven_to_comes_after_it(said: str) -> None:
+    rig = UndoRig("home", options=ASKING)
+    first = driving(rig, "go to the sofa")
+    then = rig.session.say(said)
+    rig.live(30.0)
+    assert rig.session.results[first].outcome == "completed"
+    assert rig.session.results[then].turned_rad == pytest.approx(3.14, abs=0.05)

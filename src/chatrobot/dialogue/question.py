@@ -16,11 +16,13 @@ from chatrobot.core.events import Event, Finished, Paused, Rehearsed, Result, St
 from chatrobot.core.geometry import Pose
 from chatrobot.core.reason import Reason
 from chatrobot.dialogue.places import ends_alike
+from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
 from chatrobot.dialogue.utterances import Utterance, UtteranceQueue
 from chatrobot.language.consent import read_consent
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.phrases import render_reason, say
+from chatrobot.language.resuming import wants_to_resume
 from chatrobot.link.motion_link import Approval
 from chatrobot.plan.steps import Plan
 from chatrobot.plan.text import parse_plan
@@ -89,6 +91,7 @@ class Proposals:
 
     Args:
         utterances: knows how many stops there were.
+        resuming: knows whether `go on` means what was stopped; else it is asked whether it means the offer.
         approve: answers a rehearsed plan that waits for a yes, by its turn.
     """
 
@@ -96,11 +99,12 @@ class Proposals:
         self,
         understanding: Understanding,
         utterances: UtteranceQueue,
+        resuming: Resuming,
         approve: Callable[[int, bool], None],
     ) -> None:
         self._understanding, self._approve = understanding, approve
         self.rehearsed, self._asked_at_s = Question(), 0.0
-        self._utterances = utterances
+        self._utterances, self._resuming = utterances, resuming
         self._offered: _Offered | None = None
         self.is_left_unasked = False
         """The last text was understood as a plan that no yes counts for: that yes, or a `go`, is no order, either."""
@@ -182,6 +186,9 @@ class Proposals:
             return Interpretation("refused" if yes else "answered", say(language, code), language)
         if offered is None or utterance.kind != "text" or offered.voids != self._voids:
             return None
+        if yes is None and not self._resuming.is_about_this and wants_to_resume(utterance.text):
+            asked = offered.proposal
+            return Interpretation("unclear", asked.say, language, code="did_you_mean", proposal=asked)
         plan = parse_plan(offered.proposal.plan_text)
         changed = self._understanding.amended(plan, utterance.text) if yes is None else plan
         if changed is None:

@@ -66,7 +66,7 @@ class Session:
         self._resuming = Resuming(understanding)
         self._goals = GoalClient(link, options, self._resuming)
         self._utterances = waiting = UtteranceQueue()
-        self._proposals = Proposals(understanding, waiting, self.approve)
+        self._proposals = Proposals(understanding, waiting, self._resuming, self.approve)
         self._requests = log = RequestLog(understanding, self._emit)
         self.results = self._requests.results  # by the number of the turn
         self._llm = ModelRequests(

@@ -19,7 +19,7 @@ from chatrobot.dialogue.places import ends_alike
 from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.driven import rescaled, says
+from chatrobot.language.driven import changed, rescaled, says
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import describe_text, render_reason, say
@@ -69,8 +69,14 @@ class WhileDriving:
         """Return whether all that `text` says, while the robot is on its way, is against that."""
         if self._resuming.paused is not None:
             return False
-        is_wrong = says("wrong", text, self._understanding.context())
-        return is_wrong or self._understanding.would_mean(text).code in ("only_forbidden", "taken_back")
+        understanding, motion = self._understanding, self._motion()
+        is_wrong = says("wrong", text, understanding.context())
+        if is_wrong or understanding.would_mean(text).code in ("only_forbidden", "taken_back"):
+            return True
+        if motion is None:
+            return False
+        after = understanding.context(self._requests.under_way[:1])  # `skip the kitchen`, on the way to it
+        return changed(motion.plan, text, after, understanding.profile, understanding.read) == []
 
     def answer(self, text: str) -> Interpretation | None:
         """Do what `text` says of the speed of the motion, or tell what is left; None where it says anything else."""

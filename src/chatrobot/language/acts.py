@@ -217,13 +217,22 @@ _NAMING = frozenset({"other", "thing", "person", "opening", "request"})
 """Labels of words that may stand beside a noun which says where to."""
 
 
+_BEFORE = Sign("", "", False, 0)
+
+
 def may_be_goal(read: Read, reads: Sequence[Read]) -> bool:
     """`Go to the dock, then to the shelf`, where nobody knows a shelf: a place to go to, however it sounds."""
     signs = [sign for sign in read.clause.signs if sign.label not in ("opening", "request")]
-    if not signs or not all(sign.label in {*_NAMING, sign.text} for sign in signs):
+    if not signs or not all(sign.is_name or sign.label in {*_NAMING, sign.text} for sign in signs):
         return False
-    before = reads[: reads.index(read)]
-    leads = signs[0].text in relation_words("leading")
+    leads = _leads(signs[0])
     return len(signs) > leads and any(
-        leads or sign.is_name or sign.label == "PLACE" for other in before for sign in other.clause.signs
+        leads or sign.is_name or sign.label == "PLACE" or (sign.label == "thing" and _leads(ahead))
+        for other in reads[: reads.index(read)]
+        for ahead, sign in itertools.pairwise((_BEFORE, *other.clause.signs))
     )
+
+
+def _leads(sign: Sign) -> bool:
+    """Whether it says where to: `to`, `go to`."""
+    return sign.text.split("_")[-1] in relation_words("leading")

@@ -154,8 +154,7 @@ def _to_a_side(turn: TurnRecord, _plain: str) -> tuple[Step, ...]:
 
 def _figure(turn: TurnRecord, plain: str) -> tuple[Step, ...]:
     """The whole of what drew a figure: that one, where the text names one."""
-    named = {atom.value for atom in atoms_said(plain) if atom.kind == "shape"}
-    drawn = shapes_said(turn.text)
+    named, drawn = shapes_said(plain), shapes_said(turn.text)
     fits = drawn & named if named else drawn or laps(_steps(turn), 1) is not None
     return _steps(turn) if fits else ()
 

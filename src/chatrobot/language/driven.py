@@ -16,13 +16,13 @@ from chatrobot.language.held import is_no_order, names_part
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.normalise import normalise
 from chatrobot.language.reading import Reading
-from chatrobot.language.rephrase import rephrased
+from chatrobot.language.rephrase import in_full, rephrased
 from chatrobot.language.rules import Rules, form, rules
 from chatrobot.language.speed_limit import bounded, plan_within, without_limit
 from chatrobot.language.unclear import Unclear
 from chatrobot.plan.base import expanded
 from chatrobot.plan.speed_scaling import SpeedScaling, speed_scaling
-from chatrobot.plan.steps import Plan, Step
+from chatrobot.plan.steps import Go, Plan, Step
 from chatrobot.robots.profile import RobotProfile
 
 _REMARK = -3.0
@@ -76,7 +76,11 @@ def changed(
         read: reads a text in a context, and notes nothing.
     """
     language, known = in_known_words(said, after)
-    if not _may_change(normalise(known), Reading(language, after, profile)):
+    plain = in_full(normalise(known), language)
+    without = _without_place(plan, plain, language)
+    if without is not None:
+        return without
+    if not _may_change(plain, Reading(language, after, profile)):
         return None
     alone = replace(after.dialogue, turns=(), pending="", offered=None, held=None)
     is_own = read(said, replace(after, dialogue=alone)).plan is not None
@@ -87,6 +91,15 @@ def changed(
         return []
     new = meant.held_plan if meant.code == "held" else None
     return list(expanded(new.steps)) if new is not None and new != plan else None
+
+
+def _without_place(plan: Plan, plain: str, language: str) -> list[Step] | None:
+    """The steps without the way to the place that a normalised text will not have gone to; None for any other text."""
+    said = form(language, "driven", "drops").search(plain)
+    steps = [*expanded(plan.steps)]
+    named = said["place"].strip() if said is not None else ""
+    left = [step for step in steps if not (isinstance(step, Go) and named and step.place.casefold() == named)]
+    return left if len(left) < len(steps) else None
 
 
 def _with_manner(plan: Plan, plain: str, reading: Reading) -> Plan | None:

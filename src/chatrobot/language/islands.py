@@ -38,8 +38,8 @@ _SLOTS = frozenset({"verb", "dir", "rot", "q", "pace", "shape", "role"})
 _FLAGS = frozenset(
     {"in_place", "no_turn", "sideways", "each", "diagonal", "bearing", "after_each", "between", "while"}
 )
-_IDLE = frozenset({"until", "more", "total", "first", "all", "bit", "closer"})
-"""Flags that an amount behind them makes idle: `until you've covered 2 m`."""
+_IDLE = frozenset({"until", "more", "total", "first", "all", "bit", "closer", "again", "there"})
+"""Flags that an amount beside them makes idle: `until you've covered 2 m`, `a quarter turn right again`."""
 _PASSABLE = frozenset({"there", "in_place", "no_turn"})
 _ENDS = frozenset({"condition", "negation", "correction", "doubt", "refuse", "operator", "order"}) | {
     "place", "defined", "compass"
@@ -129,8 +129,8 @@ def _kept(atoms: Sequence[Atom], read: Read) -> list[Atom] | None:
     if not ways and "verdict" in _labels(read) and read.log_odds < TALK_ODDS:
         return None  # `the wall is a metre off`
     if not any(_is_size(atom) for atom in atoms) and not (_bare_numbers(atoms) and ways):
-        bare = all(atom.kind in (*_SLOTS, *SILENT) for atom in atoms)
-        slots = [atom for atom in atoms if atom.kind in _SLOTS or atom.kind == "conn"]
+        bare = all(atom.kind in (*_SLOTS, *SILENT) or atom.value in _PASSABLE for atom in atoms)
+        slots = [atom for atom in atoms if atom.kind in (*_SLOTS, "conn") or atom.value == "in_place"]
         return slots if bare and ways and read.log_odds > TALK_ODDS else None
     labels = _labels(read)
     is_order = read.log_odds >= ORDER
@@ -160,7 +160,7 @@ def _bare_numbers(atoms: Sequence[Atom]) -> list[Atom]:
 def _mended(atoms: Sequence[Atom]) -> Iterator[Atom]:
     """The atoms; a bare number is degrees beside a side or a turn, else metres, or centimetres where that would be far.
 
-    One that counts what nobody knows is left out.
+    One that counts, or numbers, what nobody knows is left out: `bay two`.
 
     Raises:
         Unclear: for any other bare number.
@@ -169,7 +169,7 @@ def _mended(atoms: Sequence[Atom]) -> Iterator[Atom]:
     for i, atom in enumerate(told):
         if (atom.kind, atom.value) != ("q", "number"):
             yield atom
-        elif i + 1 == len(told) or told[i + 1].kind != "unknown":
+        elif "unknown" not in [other.kind for other in (*told[max(i - 1, 0) : i], *told[i + 1 : i + 2])]:
             yield _measured(atom, told, i)
 
 
@@ -180,7 +180,7 @@ def _measured(number: Atom, atoms: Sequence[Atom], at: int) -> Atom:
         Unclear: nothing beside it says what it measures.
     """
     beside = (*atoms[max(at - 1, 0) : at], *atoms[at + 1 : at + 2])
-    if number.number < 1.0 or (at and atoms[at - 1].kind == "unknown"):
+    if number.number < 1.0:
         raise Unclear("no_unit", number.text)
     sided = any(atom.kind == "rot" or atom.value in SIDES for atom in beside)
     turns = any(atom.kind == "rot" or (atom.kind == "verb" and atom.value in TURN) for atom in atoms)

@@ -198,8 +198,8 @@ def _extent(step: Step) -> float:
 
 @lru_cache(maxsize=128)
 def shapes_said(text: str) -> frozenset[str]:
-    """The shapes that a text names."""
-    return frozenset(atom.value for atom in atoms_said(text) if atom.kind == "shape")
+    """The shapes that a text names, as it stands or as it is rephrased."""
+    return frozenset(atom.value for atom in (*atoms_said(text), *_atoms(text)) if atom.kind == "shape")
 
 
 def atoms_said(text: str) -> list[Atom]:
