@@ -86,3 +86,38 @@ def test_it_is_answered(text: str, told: str) -> None:
     talk = Talk(world="home")
     talk.do("go to the kitchen")
     assert told in talk.do(text).reply
+
+
+@pytest.mark.parametrize("text", ["look at it go!", "wow, watch it turn left", "mum, look at it spin"])
+def test_what_is_said_to_somebody_else_of_the_motion_moves_nothing(text: str) -> None:
+    assert conversation("forward 1 m").say(text).plan is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "what would happen if you turned left?",
+        "was passiert, wenn du dich nach links drehst?",
+        "如果你左转会怎么样",
+    ],
+)
+def test_what_would_happen_is_told_and_not_done(text: str) -> None:
+    meant = conversation().say(text)
+    assert (meant.outcome, meant.plan) == ("answered", None)
+    assert "90" in meant.reply
+
+
+@pytest.mark.parametrize(
+    ("turns", "plan"),
+    [
+        (("turn left", "I said left 45"), "turn right 45 deg"),
+        (("slide right 40 cm", "scoot back over"), "drive 0.4 m left"),
+        (
+            ("a circle to the left, radius 40 cm", "half circle, same radius, to the right"),
+            "arc right 180 deg radius 0.4 m",
+        ),
+        (("画个左圈半径50厘米",), "arc left 360 deg radius 0.5 m"),
+    ],
+)  # fmt: skip
+def test_what_follows_has_the_measure_of_before(turns: tuple[str, ...], plan: str) -> None:
+    assert plan_of(*turns) == plan
