@@ -19,7 +19,7 @@ from chatrobot.dialogue.places import ends_alike
 from chatrobot.dialogue.replies import with_offer
 from chatrobot.dialogue.resuming import Resuming
 from chatrobot.dialogue.understanding import Understanding
-from chatrobot.language.driven import changed, rescaled, says
+from chatrobot.language.driven import drops, rescaled, says
 from chatrobot.language.interpretation import Interpretation
 from chatrobot.language.inverse import inverse
 from chatrobot.language.phrases import describe_text, render_reason, say
@@ -73,10 +73,7 @@ class WhileDriving:
         is_wrong = says("wrong", text, understanding.context())
         if is_wrong or understanding.would_mean(text).code in ("only_forbidden", "taken_back"):
             return True
-        if motion is None:
-            return False
-        after = understanding.context(self._requests.under_way[:1])  # `skip the kitchen`, on the way to it
-        return changed(motion.plan, text, after, understanding.profile, understanding.read) == []
+        return motion is not None and drops(motion.plan, text, understanding.context())
 
     def answer(self, text: str) -> Interpretation | None:
         """Do what `text` says of the speed of the motion, or tell what is left; None where it says anything else."""

@@ -93,6 +93,12 @@ def changed(
     return list(expanded(new.steps)) if new is not None and new != plan else None
 
 
+def drops(plan: Plan, text: str, context: Context) -> bool:
+    """Whether `text` will not have gone to the place that is all that a plan goes to: `skip the kitchen`."""
+    language, known = in_known_words(text, context)
+    return _without_place(plan, in_full(normalise(known), language), language) == []
+
+
 def _without_place(plan: Plan, plain: str, language: str) -> list[Step] | None:
     """The steps without the way to the place that a normalised text will not have gone to; None for any other text."""
     said = form(language, "driven", "drops").search(plain)
